@@ -1,0 +1,144 @@
+//! The scene as files describe it.
+
+use glam::{Mat4, Vec2, Vec3, Vec4};
+
+/// Meshes, materials and images, the instances that place the meshes, and what was said of cameras
+/// and lights. +Y is up; lengths are in the scene's own unit (metres for glTF).
+#[derive(Debug, Clone, Default)]
+pub struct Scene {
+    /// Name of the file or generator.
+    pub name: String,
+    /// One entry per glTF primitive.
+    pub meshes: Vec<Mesh>,
+    /// Where each mesh stands. Several instances may share one mesh.
+    pub instances: Vec<Instance>,
+    /// Surface descriptions; `Mesh::material` indexes them.
+    pub materials: Vec<Material>,
+    /// Decoded images; `Material::base_color_image` indexes them.
+    pub images: Vec<Image>,
+    /// Cameras in world space, in file order.
+    pub cameras: Vec<Camera>,
+    /// Lights in world space, in file order.
+    pub lights: Vec<Light>,
+}
+
+/// An indexed triangle list in the space of its mesh.
+#[derive(Debug, Clone, Default)]
+pub struct Mesh {
+    /// Name for messages.
+    pub name: String,
+    /// Vertex positions, all finite.
+    pub positions: Vec<Vec3>,
+    /// Unit normals, one per position.
+    pub normals: Vec<Vec3>,
+    /// Texture coordinates, one per position (zero where the file has none), texture transform
+    /// already applied.
+    pub uvs: Vec<Vec2>,
+    /// Linear RGBA, one per position (white where the file has none).
+    pub colors: Vec<Vec4>,
+    /// Three indices per triangle, each below `positions.len()`.
+    pub indices: Vec<u32>,
+    /// Index into `Scene::materials`.
+    pub material: usize,
+}
+
+/// One placed mesh.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Instance {
+    /// Index into `Scene::meshes`.
+    pub mesh: usize,
+    /// Affine transform; may mirror and scale non-uniformly.
+    pub world_from_mesh: Mat4,
+}
+
+/// How a surface uses the alpha of its base colour.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum AlphaMode {
+    /// Alpha is ignored.
+    Opaque,
+    /// A point is there where alpha ≥ cutoff, for cameras and for shadows alike.
+    Mask {
+        /// Threshold, usually 0.5.
+        cutoff: f32,
+    },
+}
+
+/// Metallic-roughness surface.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Material {
+    /// Name for messages.
+    pub name: String,
+    /// Linear RGBA factor.
+    pub base_color: Vec4,
+    /// Index into `Scene::images`; sRGB colour with straight alpha.
+    pub base_color_image: Option<usize>,
+    /// 0 dielectric .. 1 metal.
+    pub metallic: f32,
+    /// 0 smooth .. 1 rough.
+    pub roughness: f32,
+    /// Cut-out or not. Blended surfaces are imported as opaque.
+    pub alpha: AlphaMode,
+    /// What the file says; casters and rays treat every triangle as two-sided either way.
+    pub double_sided: bool,
+}
+
+impl Default for Material {
+    fn default() -> Self {
+        Self {
+            name: "default".into(),
+            base_color: Vec4::ONE,
+            base_color_image: None,
+            metallic: 0.0,
+            roughness: 0.8,
+            alpha: AlphaMode::Opaque,
+            double_sided: true,
+        }
+    }
+}
+
+/// 8-bit RGBA pixels, row by row from the top left, with repeat or clamp addressing.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Image {
+    /// Name for messages.
+    pub name: String,
+    /// Pixels across, at least 1.
+    pub width: u32,
+    /// Pixels down, at least 1.
+    pub height: u32,
+    /// `4 · width · height` bytes: sRGB colour, straight alpha.
+    pub rgba: Vec<u8>,
+    /// Addressing outside [0,1]: true repeats, false clamps to the edge, in x and y.
+    pub repeat: [bool; 2],
+}
+
+/// A pinhole camera.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Camera {
+    /// World position of the eye.
+    pub position: Vec3,
+    /// World point in the middle of the picture.
+    pub target: Vec3,
+    /// Roughly up; not parallel to the line of sight.
+    pub up: Vec3,
+    /// Vertical field of view, radians.
+    pub fov_y: f32,
+}
+
+/// A light, in world space. Directions point the way the light travels.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Light {
+    /// Parallel rays.
+    Directional {
+        /// Unit vector.
+        direction: Vec3,
+    },
+    /// A cone.
+    Spot {
+        /// Apex.
+        position: Vec3,
+        /// Unit vector along the axis.
+        direction: Vec3,
+        /// Half angle of the cone, radians, below π/2.
+        outer_angle: f32,
+    },
+}
