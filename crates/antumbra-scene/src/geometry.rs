@@ -1,7 +1,7 @@
 //! World-space triangles: what raster and rays share.
 
-use crate::{Image, Material, Scene};
-use glam::{Vec2, Vec3, Vec4};
+use crate::{AlphaMode, Image, Instance, Material, Mesh, Scene};
+use glam::{DMat3, DVec3, Vec2, Vec3, Vec4};
 
 /// Axis-aligned box.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -10,6 +10,46 @@ pub struct Aabb {
     pub min: Vec3,
     /// Largest corner.
     pub max: Vec3,
+}
+
+impl Aabb {
+    /// The smallest box around some points; `None` if there are no points.
+    #[must_use]
+    pub fn around(points: impl IntoIterator<Item = Vec3>) -> Option<Self> {
+        let mut points = points.into_iter();
+        let first = points.next()?;
+        Some(
+            points
+                .fold(Self { min: first, max: first }, |b, p| Self { min: b.min.min(p), max: b.max.max(p) }),
+        )
+    }
+
+    /// Middle of the box.
+    #[must_use]
+    pub fn center(&self) -> Vec3 {
+        self.min * 0.5 + self.max * 0.5
+    }
+
+    /// Edge lengths.
+    #[must_use]
+    pub fn size(&self) -> Vec3 {
+        self.max - self.min
+    }
+
+    /// Radius of the sphere through the corners.
+    #[must_use]
+    pub fn radius(&self) -> f32 {
+        (self.max * 0.5 - self.min * 0.5).length()
+    }
+
+    /// The eight corners; bit 0 of the place chooses x, bit 1 y, bit 2 z.
+    #[must_use]
+    pub fn corners(&self) -> [Vec3; 8] {
+        std::array::from_fn(|i| {
+            let pick = |bit: usize, k: usize| if i >> bit & 1 == 0 { self.min[k] } else { self.max[k] };
+            Vec3::new(pick(0, 0), pick(1, 1), pick(2, 2))
+        })
+    }
 }
 
 /// One indexed list of world-space triangles, sorted by material: triangle `t` has the corners
@@ -41,18 +81,108 @@ impl Geometry {
     pub fn triangle_count(&self) -> usize {
         self.indices.len() / 3
     }
+
     /// Corners of triangle `t` in world space.
     #[must_use]
     pub fn triangle(&self, t: usize) -> [Vec3; 3] {
-        [0, 1, 2].map(|k| self.positions[self.indices[3 * t + k] as usize])
+        self.corners(t).map(|i| self.positions[i])
+    }
+
+    /// Vertex numbers of the corners of triangle `t`.
+    #[must_use]
+    pub fn corners(&self, t: usize) -> [usize; 3] {
+        [0, 1, 2].map(|k| self.indices[3 * t + k] as usize)
+    }
+
+    /// Smallest box around every triangle; `None` if there are none.
+    #[must_use]
+    pub fn bounds(&self) -> Option<Aabb> {
+        Aabb::around(self.indices.iter().map(|&i| self.positions[i as usize]))
+    }
+
+    /// Number of triangles without area: two corners coincide or all three lie on a line. They
+    /// cover no pixel and stop no ray.
+    #[must_use]
+    pub fn zero_area_count(&self) -> usize {
+        (0..self.triangle_count())
+            .filter(|&t| {
+                let [a, b, c] = self.triangle(t).map(Vec3::as_dvec3);
+                (b - a).cross(c - a) == DVec3::ZERO
+            })
+            .count()
     }
 }
 
 impl Scene {
     /// All instances in world space, sorted by material. Zero-area triangles are kept (they cover
     /// no pixel and stop no ray).
+    ///
+    /// Positions are transformed in double precision and rounded once. Normals take the inverse
+    /// transpose; mirrored instances (negative determinant) get their winding flipped, so that the
+    /// geometric normal `(b−a)×(c−a)` stays on the side that the mesh meant.
+    ///
+    /// Whatever [`Scene::validate`] refuses (a missing mesh or material, an index out of range, an
+    /// attribute of the wrong length) is left out here: validate first, then nothing is.
+    ///
+    /// Cost: one copy of every vertex for each instance, 48 bytes each.
     #[must_use]
     pub fn flatten(&self) -> Geometry {
-        Geometry { materials: self.materials.clone(), images: self.images.clone(), ..Geometry::default() }
+        let mut out = Geometry {
+            materials: self.materials.clone(),
+            images: self.images.clone(),
+            ..Geometry::default()
+        };
+        let opaque_first = |masked: bool| {
+            self.materials.iter().enumerate().filter(move |(_, m)| (m.alpha != AlphaMode::Opaque) == masked)
+        };
+        for (material, _) in opaque_first(false).chain(opaque_first(true)) {
+            let start = out.triangle_count();
+            for instance in &self.instances {
+                if let Some(mesh) = self.meshes.get(instance.mesh).filter(|m| m.material == material) {
+                    append(&mut out, mesh, instance);
+                }
+            }
+            let end = out.triangle_count();
+            if end > start {
+                out.groups.push((material, start as u32..end as u32));
+            }
+        }
+        out
+    }
+}
+
+/// Adds one placed mesh, if it is sound and vertex numbers still fit `u32`.
+fn append(out: &mut Geometry, mesh: &Mesh, instance: &Instance) {
+    let vertices = mesh.positions.len();
+    let whole = [mesh.normals.len(), mesh.uvs.len(), mesh.colors.len()].iter().all(|&n| n == vertices);
+    let first = out.positions.len();
+    if !whole || first + vertices > u32::MAX as usize {
+        return;
+    }
+    let matrix = instance.world_from_mesh.as_dmat4();
+    let linear = DMat3::from_mat4(matrix);
+    let mirrored = linear.determinant() < 0.0;
+    // The cofactor matrix is det · inverse transpose: it needs no division, so it also serves
+    // flattened (singular) instances.
+    let cofactor = DMat3::from_cols(
+        linear.y_axis.cross(linear.z_axis),
+        linear.z_axis.cross(linear.x_axis),
+        linear.x_axis.cross(linear.y_axis),
+    ) * if mirrored { -1.0 } else { 1.0 };
+    out.positions.extend(mesh.positions.iter().map(|p| matrix.transform_point3(p.as_dvec3()).as_vec3()));
+    out.normals.extend(
+        mesh.normals
+            .iter()
+            .map(|n| (cofactor * n.as_dvec3()).try_normalize().map_or(Vec3::Y, |n| n.as_vec3())),
+    );
+    out.uvs.extend_from_slice(&mesh.uvs);
+    out.colors.extend_from_slice(&mesh.colors);
+    for corners in mesh.indices.chunks_exact(3) {
+        if let &[a, b, c] = corners
+            && corners.iter().all(|&i| (i as usize) < vertices)
+        {
+            let (b, c) = if mirrored { (c, b) } else { (b, c) };
+            out.indices.extend([a, b, c].map(|i| i + first as u32));
+        }
     }
 }
