@@ -20,6 +20,8 @@ pub struct Scene {
     pub cameras: Vec<Camera>,
     /// Lights in world space, in file order.
     pub lights: Vec<Light>,
+    /// What an importer left out or changed, one sentence each.
+    pub notes: Vec<String>,
 }
 
 /// An indexed triangle list in the space of its mesh.

@@ -1,0 +1,75 @@
+//! A camera and a sun for scenes that bring none.
+
+use crate::{Aabb, Camera, Light, Scene};
+use glam::{Vec2, Vec3, Vec3Swizzles};
+
+/// From where the default camera looks: 35° to the right of +Z, about 25° above the horizon.
+const EYE: Vec3 = Vec3::new(0.52, 0.42, 0.74);
+/// Vertical field of view of the default camera, radians.
+const FOV_Y: f32 = 0.7;
+
+impl Scene {
+    /// Box around every placed vertex that a triangle uses; `None` for a scene without triangles.
+    ///
+    /// Cost: reads every index of every instance.
+    #[must_use]
+    pub fn bounds(&self) -> Option<Aabb> {
+        let placed = self.instances.iter().filter_map(|i| Some((self.meshes.get(i.mesh)?, i)));
+        Aabb::around(placed.flat_map(|(mesh, instance)| {
+            let matrix = instance.world_from_mesh.as_dmat4();
+            mesh.indices.iter().filter_map(move |&i| {
+                let p = mesh.positions.get(i as usize)?;
+                Some(matrix.transform_point3(p.as_dvec3()).as_vec3())
+            })
+        }))
+    }
+
+    /// A three-quarter view from the front, right and above that sees the whole scene in a picture
+    /// at least as wide as it is high. Scenes without triangles get a view of the unit cube.
+    #[must_use]
+    pub fn default_camera(&self) -> Camera {
+        let unit = Aabb { min: Vec3::splat(-0.5), max: Vec3::splat(0.5) };
+        let bounds = self.bounds().unwrap_or(unit);
+        let backward = EYE.normalize();
+        let right = Vec3::Y.cross(backward).normalize();
+        let up = backward.cross(right);
+        let slope = (FOV_Y * 0.5).tan() * 0.92; // 8 % of margin
+        let center = bounds.center();
+        // A corner at offset (x, y, z) in camera axes is inside when |x|, |y| ≤ (distance − z)·slope.
+        let distance = bounds
+            .corners()
+            .map(|corner| {
+                let offset = corner - center;
+                let side = offset.dot(right).abs().max(offset.dot(up).abs());
+                offset.dot(backward) + side / slope
+            })
+            .into_iter()
+            .fold(0.0, f32::max);
+        let distance = if distance > 0.0 { distance } else { 1.0 };
+        Camera { position: center + backward * distance, target: center, up: Vec3::Y, fov_y: FOV_Y }
+    }
+
+    /// A sun from the upper left behind the first camera (or the default one), 45° above the
+    /// horizon: shadows fall to the right and away, where the camera sees them.
+    #[must_use]
+    pub fn default_light(&self) -> Light {
+        let camera = self.main_camera();
+        let forward = (camera.target - camera.position).xz().normalize_or(Vec2::NEG_Y);
+        let forward = Vec3::new(forward.x, 0.0, forward.y);
+        let right = forward.cross(Vec3::Y);
+        let level = (right * 0.8 + forward * 0.6).normalize();
+        Light::Directional { direction: (level - Vec3::Y).normalize() }
+    }
+
+    /// The scene's first camera, else [`Scene::default_camera`].
+    #[must_use]
+    pub fn main_camera(&self) -> Camera {
+        self.cameras.first().copied().unwrap_or_else(|| self.default_camera())
+    }
+
+    /// The scene's first light, else [`Scene::default_light`].
+    #[must_use]
+    pub fn main_light(&self) -> Light {
+        self.lights.first().copied().unwrap_or_else(|| self.default_light())
+    }
+}
