@@ -1,1 +1,6 @@
 //! antumbra-lab
+
+pub mod files;
+pub mod metrics;
+pub mod plane;
+pub mod results;

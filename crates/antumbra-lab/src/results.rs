@@ -1,0 +1,403 @@
+//! What a comparison measured, as data: the content of `results.json`.
+//!
+//! The schema is versioned by [`SCHEMA`]. A reader checks that string first; fields are only ever
+//! added under one version. Numbers are finite: a quantity that does not exist for an image (the
+//! leak of a picture without deep shadow, the PSNR of two equal images) is `null`.
+
+use crate::files::{self, FileError};
+use crate::metrics::Score;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+mod csv;
+
+/// Name and version of the schema.
+pub const SCHEMA: &str = "antumbra-results/1";
+
+/// One comparison: a scene, its truths, and every technique that was tried on it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Results {
+    /// [`SCHEMA`].
+    pub schema: String,
+    /// The program that measured.
+    pub program: Program,
+    /// The command line, program first, one entry per argument.
+    pub command: Vec<String>,
+    /// What was rendered.
+    pub scene: SceneFacts,
+    /// Width and height of the rendered images, pixels.
+    pub resolution: [u32; 2],
+    /// Width and height of each shadow map, texels.
+    pub map_size: u32,
+    /// Width of the light-space ideal's kernel, texels.
+    pub kernel_texels: u32,
+    /// The graphics adapter.
+    pub adapter: AdapterFacts,
+    /// The ray-traced truths.
+    pub truth: TruthFacts,
+    /// One entry per technique and settings, in the order they were asked for.
+    pub techniques: Vec<TechniqueResult>,
+    /// Most memory the process held at once, bytes; `null` where the system does not tell.
+    pub peak_memory_bytes: Option<u64>,
+    /// Wall-clock time of the whole comparison, seconds.
+    pub seconds_total: f64,
+    /// Names of the other files of the report, filled in when the report is written.
+    #[serde(default)]
+    pub files: Vec<String>,
+}
+
+/// Name and version of a program.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Program {
+    /// "antumbra".
+    pub name: String,
+    /// Version as released.
+    pub version: String,
+}
+
+/// What was rendered.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct SceneFacts {
+    /// File or generator.
+    pub name: String,
+    /// Triangles after instancing.
+    pub triangles: u64,
+    /// The light.
+    pub light: LightFacts,
+    /// The camera.
+    pub camera: CameraFacts,
+    /// World-space box around the geometry.
+    pub bounds: BoundsFacts,
+}
+
+/// The light, world space; directions point the way the light travels.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+pub enum LightFacts {
+    /// Parallel rays.
+    Directional {
+        /// Unit vector.
+        direction: [f32; 3],
+    },
+    /// A cone.
+    Spot {
+        /// Apex.
+        position: [f32; 3],
+        /// Unit vector along the axis.
+        direction: [f32; 3],
+        /// Half angle of the cone, degrees.
+        outer_angle_deg: f32,
+    },
+    /// All directions.
+    Point {
+        /// Centre.
+        position: [f32; 3],
+    },
+}
+
+/// A pinhole camera, world space.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct CameraFacts {
+    /// Eye.
+    pub position: [f32; 3],
+    /// Point in the middle of the picture.
+    pub target: [f32; 3],
+    /// Roughly up.
+    pub up: [f32; 3],
+    /// Vertical field of view, degrees.
+    pub fov_y_deg: f32,
+}
+
+/// An axis-aligned box.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct BoundsFacts {
+    /// Smallest corner.
+    pub min: [f32; 3],
+    /// Largest corner.
+    pub max: [f32; 3],
+}
+
+/// The graphics adapter as it names itself.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct AdapterFacts {
+    /// Device.
+    pub name: String,
+    /// Driver and its version.
+    pub driver: String,
+    /// Graphics API.
+    pub backend: String,
+    /// Discrete, integrated, virtual or software.
+    pub device_type: String,
+    /// Optional features in use.
+    pub features: Vec<String>,
+}
+
+/// The ray-traced truths.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct TruthFacts {
+    /// Time to build the acceleration structure, seconds.
+    pub seconds_build: f64,
+    /// Time for the hard truth, seconds.
+    pub seconds_hard: f64,
+    /// Time for the light-space ideal, seconds.
+    pub seconds_light_space: f64,
+    /// Time for the screen-space ideal, seconds.
+    pub seconds_screen_space: f64,
+    /// Share of pixels where raster and rays see the same triangle, 0..1.
+    pub coverage_agreement: f64,
+    /// Pixels of the rest by explanation, e.g. "on a shared edge".
+    pub coverage_explained: BTreeMap<String, u64>,
+    /// Pixels that see geometry facing the light.
+    pub shadowable_pixels: u64,
+    /// The all-lit image against the hard truth: what drawing no shadow scores.
+    pub no_shadow: Score,
+    /// The truths as images.
+    pub images: TruthImages,
+}
+
+/// Names of the truths' images.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct TruthImages {
+    /// One shadow ray per pixel.
+    pub hard: String,
+    /// Ray-traced depth, filtered by the kernel in light space.
+    pub light_space: String,
+    /// Many rays per pixel.
+    pub screen_space: String,
+}
+
+/// One technique with its settings.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct TechniqueResult {
+    /// Stem of its files, e.g. "esm".
+    pub name: String,
+    /// What reproduces it on the command line, e.g. "esm.c=80,kernel=5"; unique in one comparison.
+    pub spec: String,
+    /// Name for people, e.g. "Exponential shadow map".
+    pub title: String,
+    /// How it filters.
+    pub family: Family,
+    /// Where it was published.
+    pub paper: String,
+    /// Every setting with its value.
+    pub settings: BTreeMap<String, Value>,
+    /// Error against each truth.
+    pub scores: Scores,
+    /// Error against the light-space ideal in named parts of the picture, e.g. "contact".
+    pub regions: BTreeMap<String, Score>,
+    /// Cost in time.
+    pub time: TimeResult,
+    /// Cost in memory.
+    pub memory: MemoryResult,
+    /// What the library chose and why: formats, fallbacks.
+    pub explain: Vec<String>,
+    /// Its images.
+    pub images: TechniqueImages,
+}
+
+/// What the map keeps and when it is filtered.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Family {
+    /// Keeps depth; compares, then averages at lookup.
+    Comparison,
+    /// Keeps a linear basis of depth; filters before lookup.
+    Basis,
+    /// Keeps triangles; reconstructs the edge at lookup.
+    Geometry,
+}
+
+/// Error against each truth.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Scores {
+    /// Against one shadow ray per pixel.
+    pub hard: Score,
+    /// Against the light-space ideal.
+    pub light_space: Score,
+    /// Against the screen-space ideal.
+    pub screen_space: Score,
+}
+
+/// Cost in time, milliseconds.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct TimeResult {
+    /// Each pass in the order it runs.
+    pub passes: Vec<PassTime>,
+    /// The whole frame, shadow passes and lighting.
+    pub frame: Spread,
+    /// Frames that were measured.
+    pub rounds: u32,
+    /// Lookup time over that of the standard shadow map; `null` where it was not measured.
+    pub lookup_ratio_to_hard: Option<f64>,
+    /// Frame time over that of the standard shadow map; `null` where it was not measured.
+    pub frame_ratio_to_hard: Option<f64>,
+}
+
+/// Time of one pass.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PassTime {
+    /// E.g. "cast", "convert", "blur", "lookup".
+    pub name: String,
+    /// Median over the rounds, milliseconds.
+    pub median_ms: f64,
+    /// Fastest round, milliseconds.
+    pub min_ms: f64,
+    /// Slowest round, milliseconds.
+    pub max_ms: f64,
+    /// Median time to record it on the CPU, milliseconds.
+    pub cpu_ms: Option<f64>,
+    /// The clock.
+    pub method: TimeMethod,
+}
+
+/// The clock of a measurement.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum TimeMethod {
+    /// Timestamps that the GPU writes before and after.
+    Timestamps,
+    /// Wall clock from submission to completion.
+    Wall,
+}
+
+/// Median and extremes, milliseconds.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Spread {
+    /// Median.
+    pub median_ms: f64,
+    /// Smallest.
+    pub min_ms: f64,
+    /// Largest.
+    pub max_ms: f64,
+}
+
+/// Cost in memory, bytes.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct MemoryResult {
+    /// Every texture and buffer.
+    pub items: Vec<MemoryItem>,
+    /// Sum over what lookups need.
+    pub kept_bytes: u64,
+    /// Sum over what only the passes need.
+    pub transient_bytes: u64,
+}
+
+/// One texture or buffer.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct MemoryItem {
+    /// What it is, e.g. "moments".
+    pub name: String,
+    /// Its format, e.g. "rg32float".
+    pub format: String,
+    /// Texels across.
+    pub width: u32,
+    /// Texels down.
+    pub height: u32,
+    /// Array layers.
+    pub layers: u32,
+    /// Mip levels.
+    pub mips: u32,
+    /// All of it, mips and layers included.
+    pub bytes: u64,
+    /// How long it must live.
+    pub kept: Lifetime,
+}
+
+/// How long a texture must live.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Lifetime {
+    /// Until the last lookup.
+    Kept,
+    /// During the shadow passes; lights can share it.
+    Transient,
+}
+
+/// Names of a technique's images.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct TechniqueImages {
+    /// The lit picture, sRGB.
+    pub picture: String,
+    /// Visibility, linear gray.
+    pub visibility: String,
+    /// Signed error against the hard truth.
+    pub error_hard: String,
+    /// Signed error against the light-space ideal.
+    pub error_light_space: String,
+}
+
+/// Why results could not be read or written.
+#[derive(Debug, thiserror::Error)]
+pub enum ResultsError {
+    /// The file system refused.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// Not JSON of this schema.
+    #[error("{path}: not results of schema {SCHEMA}: {source}")]
+    Json {
+        /// The file.
+        path: String,
+        /// What the parser said.
+        source: serde_json::Error,
+    },
+    /// Another schema or version.
+    #[error("{path}: schema is {found:?}, this program reads {SCHEMA:?}: use the version that wrote it")]
+    Schema {
+        /// The file.
+        path: String,
+        /// What the file says.
+        found: String,
+    },
+    /// A number is infinite or NaN.
+    #[error(
+        "a measured number is infinite or NaN, which JSON cannot hold ({0}): leave it out (null) instead"
+    )]
+    NotFinite(serde_json::Error),
+}
+
+impl Results {
+    /// As indented JSON.
+    ///
+    /// # Errors
+    /// [`ResultsError::NotFinite`] if a number is infinite or NaN.
+    pub fn to_json(&self) -> Result<String, ResultsError> {
+        let text = serde_json::to_string_pretty(self).map_err(ResultsError::NotFinite)?;
+        // The serialiser writes such numbers as null, which is not a number when read again.
+        match serde_json::from_str::<Self>(&text) {
+            Ok(_) => Ok(text + "\n"),
+            Err(error) => Err(ResultsError::NotFinite(error)),
+        }
+    }
+
+    /// Writes `results.json`, whole or not at all.
+    ///
+    /// # Errors
+    /// As [`Self::to_json`], or [`ResultsError::File`].
+    pub fn write_json(&self, path: &Path) -> Result<(), ResultsError> {
+        Ok(files::write_atomically(path, self.to_json()?.as_bytes())?)
+    }
+
+    /// Reads `results.json`.
+    ///
+    /// # Errors
+    /// [`ResultsError::File`], [`ResultsError::Schema`] or [`ResultsError::Json`].
+    pub fn read(path: &Path) -> Result<Self, ResultsError> {
+        let text = files::read(path)?;
+        let json = |source| ResultsError::Json { path: path.display().to_string(), source };
+        let value: Value = serde_json::from_slice(&text).map_err(json)?;
+        let found = value.get("schema").and_then(Value::as_str).unwrap_or_default();
+        if found != SCHEMA {
+            return Err(ResultsError::Schema { path: path.display().to_string(), found: found.into() });
+        }
+        serde_json::from_value(value).map_err(json)
+    }
+
+    /// One row per technique under one row of headings, separated by commas [RFC 4180]; a quantity
+    /// that does not exist is an empty cell.
+    #[must_use]
+    pub fn csv(&self) -> String {
+        csv::table(self)
+    }
+}

@@ -1,0 +1,88 @@
+//! `results.csv`: the numbers without the structure.
+
+use super::{Results, TechniqueResult};
+use crate::metrics::Score;
+
+const SCORE: [&str; 13] = [
+    "pixel_match",
+    "pixel_match_near_edges",
+    "rmse",
+    "mae",
+    "psnr_db",
+    "ssim",
+    "flip",
+    "leak",
+    "over_darkening",
+    "acne",
+    "shadowable_pixels",
+    "edge_pixels",
+    "lit_pixels",
+];
+
+pub(super) fn table(results: &Results) -> String {
+    let mut head: Vec<String> = ["spec", "name", "title", "family"].map(String::from).into();
+    for truth in ["hard", "light_space", "screen_space"] {
+        head.extend(SCORE.iter().map(|metric| format!("{truth}_{metric}")));
+    }
+    let cost = ["frame_ms", "frame_min_ms", "frame_max_ms", "frame_ratio_to_hard", "lookup_ratio_to_hard"];
+    head.extend(cost.map(String::from));
+    head.extend(["kept_bytes", "transient_bytes"].map(String::from));
+    let rows = results.techniques.iter().map(row);
+    std::iter::once(head).chain(rows).map(|cells| line(&cells)).collect()
+}
+
+fn row(technique: &TechniqueResult) -> Vec<String> {
+    let family = match technique.family {
+        super::Family::Comparison => "comparison",
+        super::Family::Basis => "basis",
+        super::Family::Geometry => "geometry",
+    };
+    let mut cells: Vec<String> =
+        [&technique.spec, &technique.name, &technique.title].map(String::clone).into();
+    cells.push(family.into());
+    let scores = &technique.scores;
+    for score in [&scores.hard, &scores.light_space, &scores.screen_space] {
+        cells.extend(score_cells(score));
+    }
+    let time = &technique.time;
+    cells.extend([time.frame.median_ms, time.frame.min_ms, time.frame.max_ms].map(|ms| ms.to_string()));
+    cells.extend([time.frame_ratio_to_hard, time.lookup_ratio_to_hard].map(optional));
+    cells.extend([technique.memory.kept_bytes, technique.memory.transient_bytes].map(|b| b.to_string()));
+    cells
+}
+
+fn score_cells(score: &Score) -> [String; SCORE.len()] {
+    [
+        score.pixel_match.to_string(),
+        optional(score.pixel_match_near_edges),
+        score.rmse.to_string(),
+        score.mae.to_string(),
+        optional(score.psnr),
+        score.ssim.to_string(),
+        score.flip.to_string(),
+        optional(score.leak),
+        optional(score.over_darkening),
+        optional(score.acne),
+        score.shadowable_pixels.to_string(),
+        score.edge_pixels.to_string(),
+        score.lit_pixels.to_string(),
+    ]
+}
+
+fn optional(value: Option<f64>) -> String {
+    value.map_or_else(String::new, |v| v.to_string())
+}
+
+fn line(cells: &[String]) -> String {
+    let quoted: Vec<String> = cells
+        .iter()
+        .map(|cell| {
+            if cell.contains([',', '"', '\n', '\r']) {
+                format!("\"{}\"", cell.replace('"', "\"\""))
+            } else {
+                cell.clone()
+            }
+        })
+        .collect();
+    quoted.join(",") + "\r\n"
+}
