@@ -1,0 +1,175 @@
+//! Rays through pixels.
+
+use crate::TruthError;
+use antumbra_scene::Camera;
+use glam::{DVec2, DVec3};
+
+/// A half-line in world space.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ray {
+    /// Start.
+    pub origin: DVec3,
+    /// Unit vector.
+    pub direction: DVec3,
+}
+
+/// A picture: a pinhole camera in f64 and the number of its pixels.
+///
+/// Picture coordinates count pixels from the top left, y down: the centre of pixel (x, y) is
+/// (x + ½, y + ½). The camera is right-handed and looks from its position at its target.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CameraRays {
+    width: u32,
+    height: u32,
+    eye: DVec3,
+    forward: DVec3,
+    right: DVec3,
+    up: DVec3,
+    half: DVec2,
+}
+
+impl CameraRays {
+    /// The picture that `camera` takes with `width` × `height` square pixels.
+    ///
+    /// # Errors
+    /// [`TruthError::BadCamera`] when the camera is not finite, looks along `up`, or has a field of
+    /// view outside (0, π), or when a size is 0.
+    pub fn new(camera: &Camera, width: u32, height: u32) -> Result<Self, TruthError> {
+        let error = TruthError::BadCamera {
+            position: camera.position,
+            target: camera.target,
+            fov_y: camera.fov_y,
+            width,
+            height,
+        };
+        let eye = camera.position.as_dvec3();
+        let axes = || {
+            let forward = (camera.target.as_dvec3() - eye).try_normalize()?;
+            let right = forward.cross(camera.up.as_dvec3()).try_normalize()?;
+            Some((forward, right))
+        };
+        let (Some((forward, right)), true) = (axes(), eye.is_finite() && width.min(height) > 0) else {
+            return Err(error);
+        };
+        let fov_y = f64::from(camera.fov_y);
+        if !(fov_y > 0.0 && fov_y < std::f64::consts::PI) {
+            return Err(error);
+        }
+        let tan = (0.5 * fov_y).tan();
+        let half = DVec2::new(tan * f64::from(width) / f64::from(height), tan);
+        Ok(Self { width, height, eye, forward, right, up: right.cross(forward), half })
+    }
+
+    /// Pixels across.
+    #[must_use]
+    pub fn width(&self) -> u32 {
+        self.width
+    }
+
+    /// Pixels down.
+    #[must_use]
+    pub fn height(&self) -> u32 {
+        self.height
+    }
+
+    /// Number of pixels.
+    #[must_use]
+    pub fn pixel_count(&self) -> usize {
+        self.width as usize * self.height as usize
+    }
+
+    /// World position of the eye.
+    #[must_use]
+    pub fn eye(&self) -> DVec3 {
+        self.eye
+    }
+
+    /// The ray through a point of the picture, in pixels from the top left, y down.
+    #[must_use]
+    pub fn ray(&self, x: f64, y: f64) -> Ray {
+        let ndc_x = 2.0 * x / f64::from(self.width) - 1.0;
+        let ndc_y = 1.0 - 2.0 * y / f64::from(self.height);
+        let direction = self.forward + self.right * (ndc_x * self.half.x) + self.up * (ndc_y * self.half.y);
+        Ray { origin: self.eye, direction: direction.normalize() }
+    }
+
+    /// The ray through the centre of pixel number `index`, counted row by row from the top left.
+    #[must_use]
+    pub fn center_ray(&self, index: usize) -> Ray {
+        let (x, y) = self.pixel(index);
+        self.ray(f64::from(x) + 0.5, f64::from(y) + 0.5)
+    }
+
+    /// Column and row of pixel number `index`.
+    #[must_use]
+    pub fn pixel(&self, index: usize) -> (u32, u32) {
+        let width = self.width as usize;
+        ((index % width) as u32, (index / width) as u32)
+    }
+
+    /// `point` in the camera's frame: right, up, and distance along the line of sight.
+    #[must_use]
+    pub fn camera_from_world(&self, point: DVec3) -> DVec3 {
+        let arm = point - self.eye;
+        DVec3::new(arm.dot(self.right), arm.dot(self.up), arm.dot(self.forward))
+    }
+
+    /// Picture coordinates, in pixels, of a point in the camera's frame with positive z.
+    #[must_use]
+    pub fn picture_from_camera(&self, point: DVec3) -> DVec2 {
+        let ndc = point.truncate() / (self.half * point.z);
+        DVec2::new(0.5 * (1.0 + ndc.x) * f64::from(self.width), 0.5 * (1.0 - ndc.y) * f64::from(self.height))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::Vec3;
+
+    fn camera() -> Camera {
+        Camera {
+            position: Vec3::new(1.0, 2.0, 3.0),
+            target: Vec3::new(-4.0, 1.0, 0.5),
+            up: Vec3::Y,
+            fov_y: 1.1,
+        }
+    }
+
+    #[test]
+    fn projection_undoes_the_ray() {
+        let rays = CameraRays::new(&camera(), 640, 360).unwrap();
+        for (x, y) in [(0.0, 0.0), (17.3, 300.1), (640.0, 360.0)] {
+            let ray = rays.ray(x, y);
+            let point = rays.camera_from_world(ray.origin + 7.0 * ray.direction);
+            let back = rays.picture_from_camera(point);
+            assert!((back - DVec2::new(x, y)).length() < 1e-9, "{back}");
+        }
+    }
+
+    #[test]
+    fn x_goes_right_and_y_goes_down() {
+        let camera = Camera { position: Vec3::ZERO, target: Vec3::NEG_Z, up: Vec3::Y, fov_y: 1.0 };
+        let rays = CameraRays::new(&camera, 4, 2).unwrap();
+        let corner = rays.ray(0.0, 0.0).direction;
+        assert!(corner.x < 0.0 && corner.y > 0.0 && corner.z < 0.0);
+        assert!((rays.ray(2.0, 1.0).direction - DVec3::NEG_Z).length() < 1e-15);
+        let top = rays.ray(2.0, 0.0).direction;
+        assert!((top.y.atan2(-top.z) - 0.5).abs() < 1e-12, "half of fov_y");
+    }
+
+    #[test]
+    fn refuses_cameras_without_a_picture() {
+        let good = camera();
+        for bad in [
+            Camera { target: good.position, ..good },
+            Camera { up: good.target - good.position, ..good },
+            Camera { position: Vec3::NAN, ..good },
+            Camera { fov_y: 0.0, ..good },
+            Camera { fov_y: 3.2, ..good },
+        ] {
+            assert!(CameraRays::new(&bad, 4, 4).is_err(), "{bad:?}");
+        }
+        assert!(CameraRays::new(&good, 0, 4).is_err());
+    }
+}
