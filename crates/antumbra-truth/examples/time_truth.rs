@@ -1,48 +1,28 @@
 //! Prints what the truth costs on a scene: `cargo run --release --example time_truth [scene]`.
 
-use antumbra_scene::{Camera, Geometry, Light};
-use antumbra_truth::{CameraRays, Tracer};
-use glam::Vec3;
+use antumbra_scene::Light;
+use antumbra_scene::procedural::{self, Procedural};
+use antumbra_truth::{CameraRays, Kernel, MapPlane, Tracer, Visibility};
 use std::time::Instant;
 
-fn boxes(count: i32) -> Geometry {
-    let mut geometry = Geometry::default();
-    let mut add = |low: Vec3, high: Vec3| {
-        for face in 0..6 {
-            let (axis, side) = (face / 2, face % 2);
-            let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
-            let base = geometry.positions.len() as u32;
-            for (s, t) in [(0, 0), (1, 0), (1, 1), (0, 1)] {
-                let mut corner = low;
-                corner[axis] = if side == 0 { low[axis] } else { high[axis] };
-                corner[i] = if s == 0 { low[i] } else { high[i] };
-                corner[j] = if t == 0 { low[j] } else { high[j] };
-                geometry.positions.push(corner);
-            }
-            geometry.indices.extend([0, 1, 2, 0, 2, 3].map(|k| base + k));
-        }
-    };
-    add(Vec3::new(-20.0, -0.2, -20.0), Vec3::new(20.0, 0.0, 20.0));
-    for i in 0..count {
-        for j in 0..count {
-            let at =
-                Vec3::new(i as f32, 0.0, j as f32) * (30.0 / count as f32) - 15.0 * Vec3::new(1.0, 0.0, 1.0);
-            let tall = 0.3 + 0.1 * ((i * 7 + j * 13) % 11) as f32;
-            add(at, at + Vec3::new(0.02, tall, 0.02));
-        }
-    }
-    geometry
+/// Texels of `size` world units (for a spot: at distance 1), facing the light.
+fn map_plane(light: &Light, size: f64) -> MapPlane {
+    let (Light::Directional { direction } | Light::Spot { direction, .. }) = *light;
+    let right = direction.as_dvec3().any_orthonormal_vector();
+    let down = direction.as_dvec3().cross(right).normalize();
+    MapPlane { right_per_texel: right * size, down_per_texel: down * size }
+}
+
+fn count_shadowable(visibility: &Visibility) -> f64 {
+    visibility.shadowable.iter().filter(|&&s| s).count() as f64
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let geometry = boxes(174);
-    let camera = Camera {
-        position: Vec3::new(9.0, 5.0, 16.0),
-        target: Vec3::new(0.0, 0.0, 0.0),
-        up: Vec3::Y,
-        fov_y: 0.8,
-    };
-    let light = Light::Directional { direction: Vec3::new(-0.5, -0.7, -0.3).normalize() };
+    let name = std::env::args().nth(1).unwrap_or_else(|| "fence".into());
+    let entry = procedural::by_name(&name).ok_or("no such scene")?;
+    let scene = entry.scene(Procedural::DEFAULT_SEED);
+    let geometry = scene.flatten();
+    let (camera, light) = (scene.cameras[0], scene.lights[0]);
     let start = Instant::now();
     let tracer = Tracer::new(&geometry)?;
     println!("build      {:6.2} s  {} triangles", start.elapsed().as_secs_f64(), geometry.triangle_count());
@@ -63,5 +43,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let start = Instant::now();
     let _ = tracer.supersampled(&rays, &light, 4, &|_| ());
     report("4x4", start, 32.0 * count);
+    let plane = map_plane(&light, 0.015);
+    for count in [5, 9] {
+        let kernel = Kernel::new(vec![1.0; count])?;
+        let start = Instant::now();
+        let ideal = tracer.light_space_ideal(&rays, &light, &kernel, &plane, &|_| ());
+        let mixed = ideal.values.iter().filter(|&&v| v > 0.0 && v < 1.0).count() as f64;
+        report(&format!("ideal {count}"), start, 66.0 * count_shadowable(&ideal) + 193.0 * mixed);
+    }
     Ok(())
 }

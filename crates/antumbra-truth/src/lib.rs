@@ -7,6 +7,7 @@
 //! - [`Tracer::primary`]: what each pixel centre sees.
 //! - [`Tracer::hard`]: the truth of one shadow ray per pixel centre.
 //! - [`Tracer::supersampled`]: the screen-space ideal, the truth for anti-aliasing.
+//! - [`Tracer::light_space_ideal`]: the filtered truth, for maps that are blurred.
 //!
 //! # Where a shadow ray starts
 //!
@@ -22,6 +23,19 @@
 //! largest coordinate of the receiving triangle. For coordinates around 10 m that is 0.02 mm. The
 //! receiving triangle itself never counts.
 //!
+//! # The light-space ideal
+//!
+//! s_f(x) = Σ_q w(q) f(d, z(p − q)) (Annen et al. 2007, Eq. 4) with z from rays: the share of the
+//! kernel's offsets q whose light path reaches the receiver. The receiver's depth is that of its
+//! *tangent plane* at p − q (the d(y) of Eq. 3), not d(x), with which half of every tilted lit plane
+//! would be in its own shadow. So a concave receiver, whose surface rises above its tangent planes,
+//! darkens a little within a kernel's width of the fold.
+//!
+//! Beyond a depth change of 64 per lateral unit (light at less than 0.9° to the plane), or where the
+//! plane of a spot's receiver would leave the range from ⅔ to 2 times the receiver's depth, the
+//! kernel is compressed along the slope to that limit, so that all its points stay on the plane and
+//! finite.
+//!
 //! # Precision
 //!
 //! Triangles are tested in f64 with edge functions that agree on shared edges to the last bit, so no
@@ -30,6 +44,8 @@
 
 mod camera;
 mod error;
+mod ideal;
+mod kernel;
 mod shadow;
 mod tracer;
 mod tree;
@@ -37,5 +53,6 @@ mod triangle;
 
 pub use camera::{CameraRays, Ray};
 pub use error::TruthError;
+pub use kernel::{Kernel, MapPlane};
 pub use shadow::Visibility;
 pub use tracer::{Hit, Tracer};

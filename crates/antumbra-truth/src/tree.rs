@@ -26,7 +26,7 @@ use rayon::prelude::*;
 
 /// Half the side of the cube that the scene is scaled into.
 const HALF: f64 = 1024.0;
-/// How far every box reaches beyond its triangle, in the cube's unit.
+/// How far every box reaches beyond its triangle at least, in the cube's unit.
 const SLACK: f32 = 2.0e-3;
 /// Levels that the traversal stack holds.
 const DEPTH_LIMIT: usize = 31;
@@ -63,7 +63,8 @@ impl Tree {
             .map(|t| {
                 let local = geometry.triangle(t).map(|p| local(p, center, scale));
                 let [a, b, c] = local;
-                Aabb::new(a.min(b).min(c) - SLACK, a.max(b).max(c) + SLACK)
+                let slack = SLACK * tie_breaker(t);
+                Aabb::new(a.min(b).min(c) - slack, a.max(b).max(c) + slack)
             })
             .collect();
         let nodes = build_cwbvh(&boxes, BvhBuildParams::medium_build(), &mut Default::default());
@@ -160,6 +161,13 @@ impl Tree {
     fn boxed_far(&self, far: f64, entry: f64) -> f32 {
         ((far - entry) * self.scale) as f32 * (1.0 + 2.0 * f32::EPSILON) + SLACK
     }
+}
+
+/// A factor in [1, 2) that differs from triangle to triangle. Clustering degenerates into a chain
+/// where many boxes are equal, as those of repeated triangles would be.
+fn tie_breaker(triangle: usize) -> f32 {
+    let scrambled = (triangle as u32).wrapping_mul(0x9e37_79b9).rotate_right(16);
+    1.0 + (scrambled >> 16) as f32 / 65536.0
 }
 
 /// The corners, collapsed to one point where they span no area: rounding can then give them none.

@@ -1,0 +1,195 @@
+//! The light-space ideal: what a filtered map of infinite resolution would answer.
+//!
+//! s_f(x) = Σ_q w(q) f(d(x), z(p − q)) (Annen et al. 2007, Eq. 4), with z from rays: for every offset
+//! q of the kernel, is the light's path at p − q blocked before it reaches the receiver?
+//!
+//! **Which receiver depth?** Eq. 3 of the same paper compares with d(y), y being the point that
+//! projects to p − q. Keeping d(x) instead would put half of every tilted lit plane into its own
+//! shadow. Here y is the point of the receiver's *tangent plane*, through x with the geometric
+//! normal. On flat ground that is the surface; on a convex one y floats outside and is as lit as x;
+//! in a concave one y lies below the neighbouring surface, which then counts as a blocker.
+//!
+//! **Grazing light.** The farther the plane tilts from the light, the farther apart lie the points
+//! that neighbouring texels see. Beyond a depth change of [`STEEPEST`] per lateral unit (light at
+//! less than 0.9° to the plane), or where the plane of a spot's receiver would leave the range from
+//! ⅔ to 2 times the receiver's depth, the kernel is compressed along the slope just so far that the
+//! limit holds. So every y stays finite and exactly on the plane, and no lit plane shadows itself.
+
+use crate::kernel::scramble;
+use crate::shadow::{Progress, is_shadowable, to_light};
+use crate::{CameraRays, Hit, Kernel, MapPlane, Tracer, Visibility};
+use antumbra_scene::Light;
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+
+/// Largest change of depth along the light per lateral distance, at which the kernel keeps its
+/// shape.
+const STEEPEST: f64 = 64.0;
+/// Samples of every pixel.
+const FEW: u32 = 64;
+/// Samples of a pixel in or beside a penumbra.
+const MANY: u32 = 256;
+
+/// The point of a receiver's tangent plane that an offset in the map sees.
+#[derive(Debug, Clone, Copy)]
+enum Footprint {
+    /// position + a·right + b·down, both on the plane.
+    Parallel { position: DVec3, right: DVec3, down: DVec3 },
+    /// apex + depth/(1 + slope·(a, b)) · (axis + a·right + b·down).
+    Central { apex: DVec3, depth: f64, axis: DVec3, right: DVec3, down: DVec3, slope: DVec2 },
+}
+
+impl Footprint {
+    fn new(light: &Light, plane: &MapPlane, reach: f64, hit: &Hit) -> Self {
+        let MapPlane { right_per_texel: right, down_per_texel: down } = *plane;
+        let lengths = DVec2::new(right.length(), down.length());
+        let across = DVec2::new(hit.normal.dot(right), hit.normal.dot(down));
+        match *light {
+            Light::Directional { .. } => {
+                let (toward, _) = to_light(light, hit.position);
+                // Sliding along the light brings an offset back onto the plane.
+                let slide = -across / hit.normal.dot(toward);
+                let [(a, a_slide), (b, b_slide)] = compress(slide, lengths, STEEPEST);
+                let place = |(x, y): (f64, f64), slide: f64| x * right + y * down + slide * toward;
+                Self::Parallel { position: hit.position, right: place(a, a_slide), down: place(b, b_slide) }
+            }
+            Light::Spot { position, direction, .. } => {
+                let apex = position.as_dvec3();
+                let depth = (hit.position - apex).dot(direction.as_dvec3().normalize_or_zero());
+                let axis = (hit.position - apex) / depth;
+                let slope = across / hit.normal.dot(axis);
+                let farthest = std::f64::consts::SQRT_2 * reach * lengths.max_element();
+                let steepest = STEEPEST.min(0.5 * axis.length() / farthest);
+                let [(a, a_slope), (b, b_slope)] = compress(slope * axis.length(), lengths, steepest);
+                let place = |(x, y): (f64, f64)| x * right + y * down;
+                let slope = DVec2::new(a_slope, b_slope) / axis.length();
+                Self::Central { apex, depth, axis, right: place(a), down: place(b), slope }
+            }
+        }
+    }
+
+    fn point(&self, offset: DVec2) -> DVec3 {
+        match *self {
+            Self::Parallel { position, right, down } => position + offset.x * right + offset.y * down,
+            Self::Central { apex, depth, axis, right, down, slope } => {
+                let depth = depth / (1.0 + slope.dot(offset));
+                apex + depth * (axis + offset.x * right + offset.y * down)
+            }
+        }
+    }
+}
+
+/// Where the two unit steps of the map go, (a, b) each, and the depth change of each, when the
+/// kernel is compressed along the slope to be no steeper than `steepest`.
+///
+/// `change` is the depth change per texel step, `lengths` the length of the steps.
+fn compress(change: DVec2, lengths: DVec2, steepest: f64) -> [((f64, f64), f64); 2] {
+    let gradient = change / lengths;
+    let steepness = gradient.length();
+    let excess = (1.0 - steepest / steepness).max(0.0);
+    let uphill = if excess > 0.0 { gradient / steepness } else { DVec2::ZERO };
+    let step = |unit: DVec2| {
+        let kept = unit * lengths - excess * uphill * uphill.dot(unit * lengths);
+        let (a, b) = (kept / lengths).into();
+        ((a, b), change.dot(DVec2::new(a, b)))
+    };
+    [step(DVec2::X), step(DVec2::Y)]
+}
+
+/// What the kernel's samples found.
+#[derive(Debug, Clone, Copy)]
+struct Tally {
+    lit: u32,
+    of: u32,
+}
+
+impl Tally {
+    fn is_mixed(self) -> bool {
+        self.lit != 0 && self.lit != self.of
+    }
+}
+
+/// One light seen through one filter.
+struct Ideal<'a> {
+    tracer: &'a Tracer<'a>,
+    rays: &'a CameraRays,
+    light: &'a Light,
+    kernel: &'a Kernel,
+    plane: &'a MapPlane,
+}
+
+impl Ideal<'_> {
+    /// Samples `range` of a pixel's kernel; `None` where the pixel is not shadowable.
+    fn sample(&self, pixel: usize, range: std::ops::Range<u32>) -> Option<Tally> {
+        let hit = self.tracer.trace(&self.rays.center_ray(pixel));
+        if !is_shadowable(self.light, &hit) {
+            return None;
+        }
+        let footprint = Footprint::new(self.light, self.plane, self.kernel.reach(), &hit);
+        let scramble = scramble(pixel);
+        let of = range.end - range.start;
+        let lit = range
+            .filter(|&index| {
+                let point = footprint.point(self.kernel.sample(index, scramble));
+                self.tracer.is_lit(self.light, &hit, point)
+            })
+            .count();
+        Some(Tally { lit: lit as u32, of })
+    }
+
+    /// Whether a pixel or one of its eight neighbours is mixed, or they differ.
+    fn is_near_penumbra(&self, tallies: &[Option<Tally>], pixel: usize) -> bool {
+        let (x, y) = self.rays.pixel(pixel);
+        let Some(Tally { lit, .. }) = tallies[pixel] else { return false };
+        let columns = x.saturating_sub(1)..=(x + 1).min(self.rays.width() - 1);
+        let rows = y.saturating_sub(1)..=(y + 1).min(self.rays.height() - 1);
+        rows.flat_map(|row| columns.clone().map(move |column| (column, row)))
+            .filter_map(|(column, row)| tallies[row as usize * self.rays.width() as usize + column as usize])
+            .any(|near| near.is_mixed() || near.lit != lit)
+    }
+}
+
+impl Tracer<'_> {
+    /// The light-space ideal of a filter: visibility averaged over `kernel`, laid out in the map as
+    /// `plane` says, with the caster depth from rays; see the [crate's page](crate#the-light-space-ideal).
+    ///
+    /// Every pixel gets 64 rays, spread evenly over the kernel; one whose rays disagree, or that has
+    /// such a neighbour, gets 256. In these the root mean square error is below 1/128. Where 64 rays
+    /// agree, a caster that covers less than some 1/64 of the kernel can have been missed.
+    /// `progress` hears shares in (0,1], from any thread, not always in order.
+    ///
+    /// Cost: 66 to 258 rays per pixel.
+    #[must_use]
+    pub fn light_space_ideal(
+        &self,
+        rays: &CameraRays,
+        light: &Light,
+        kernel: &Kernel,
+        plane: &MapPlane,
+        progress: &(dyn Fn(f32) + Sync),
+    ) -> Visibility {
+        let ideal = Ideal { tracer: self, rays, light, kernel, plane };
+        let width = rays.width() as usize;
+        let rows = Progress::new(progress, 2 * rays.height() as usize);
+        let mut few = vec![None; rays.pixel_count()];
+        few.par_chunks_mut(width).enumerate().for_each(|(y, row)| {
+            for (x, tally) in row.iter_mut().enumerate() {
+                *tally = ideal.sample(y * width + x, 0..FEW);
+            }
+            rows.step();
+        });
+        let mut pixels = vec![None; rays.pixel_count()];
+        pixels.par_chunks_mut(width).enumerate().for_each(|(y, row)| {
+            for (x, value) in row.iter_mut().enumerate() {
+                let pixel = y * width + x;
+                let more = ideal.is_near_penumbra(&few, pixel).then(|| ideal.sample(pixel, FEW..MANY));
+                let tallies = [few[pixel], more.flatten()];
+                let sum = |pick: fn(Tally) -> u32| tallies.into_iter().flatten().map(pick).sum::<u32>();
+                let (lit, of) = (sum(|t| t.lit), sum(|t| t.of));
+                *value = (of > 0).then(|| lit as f32 / of as f32);
+            }
+            rows.step();
+        });
+        Visibility::collect(rays, &pixels)
+    }
+}
