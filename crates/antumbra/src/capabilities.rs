@@ -1,0 +1,43 @@
+//! What a device can do, asked once.
+
+use wgpu::{Features, TextureFormat};
+
+/// The features and limits that decide which formats and which shader files are used.
+#[derive(Debug, Clone)]
+pub struct Capabilities {
+    /// Features of the device (not of the adapter: only what was requested counts).
+    pub features: Features,
+    /// Limits of the device.
+    pub limits: wgpu::Limits,
+}
+
+impl Capabilities {
+    /// Asks a device.
+    #[must_use]
+    pub fn of(device: &wgpu::Device) -> Self {
+        Self { features: device.features(), limits: device.limits() }
+    }
+
+    /// Whether a sampler may interpolate this format.
+    #[must_use]
+    pub fn filters(&self, format: TextureFormat) -> bool {
+        matches!(
+            format.sample_type(None, Some(self.features)),
+            Some(wgpu::TextureSampleType::Float { filterable: true })
+        )
+    }
+
+    /// How many layers of this format one render pass can write.
+    #[must_use]
+    pub fn targets_per_pass(&self, format: TextureFormat) -> u32 {
+        let bytes = format.target_pixel_byte_cost().unwrap_or(16).max(1);
+        (self.limits.max_color_attachment_bytes_per_sample / bytes)
+            .clamp(1, self.limits.max_color_attachments.min(8))
+    }
+
+    /// Whether casters in front of the near plane can be kept by depth clamping.
+    #[must_use]
+    pub fn clamps_depth(&self) -> bool {
+        self.features.contains(Features::DEPTH_CLIP_CONTROL)
+    }
+}

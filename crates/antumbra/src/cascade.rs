@@ -1,0 +1,137 @@
+//! Cascades: several views of one directional light, each for a range of the camera's distance.
+
+use crate::{
+    error::LightError,
+    light::{Bounds, Fit, Light, Size, View, visible_hull},
+};
+use glam::Mat4;
+
+/// How the camera's range is divided.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cascades {
+    /// Number of views, 1 to 8.
+    pub count: u32,
+    /// 0 divides the range evenly, 1 logarithmically; 0.7 suits most scenes
+    /// (Zhang et al. 2006, "Parallel-split shadow maps").
+    pub blend: f32,
+}
+
+impl Cascades {
+    /// `count` cascades with the usual blend.
+    #[must_use]
+    pub const fn new(count: u32) -> Self {
+        Self { count, blend: 0.7 }
+    }
+
+    /// Ends of the ranges: `count + 1` distances from `near` to `far`, both positive.
+    #[must_use]
+    pub fn splits(&self, near: f32, far: f32) -> Vec<f32> {
+        (0..=self.count)
+            .map(|i| {
+                let t = i as f32 / self.count as f32;
+                let even = near + (far - near) * t;
+                let logarithmic = near * (far / near).powf(t);
+                even + (logarithmic - even) * self.blend
+            })
+            .collect()
+    }
+}
+
+/// What a light's views are fitted to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stage {
+    /// The camera: world to clip space, z in [0,1]. Reversed or infinite depth is fine.
+    pub camera: Mat4,
+    /// Everything in the scene: casters and receivers.
+    pub scene: Bounds,
+    /// Size of the map.
+    pub size: Size,
+    /// See [`Fit::margin_texels`].
+    pub margin_texels: f32,
+}
+
+impl Light {
+    /// One view per cascade that sees any receiver, nearest first, each fitted to the part of the
+    /// scene that the camera sees in its range. Spots ignore the cascades and have one view.
+    ///
+    /// # Errors
+    /// [`LightError`], among them [`LightError::NothingVisible`] if the camera sees nothing.
+    pub fn views(&self, stage: &Stage, cascades: Cascades) -> Result<Vec<View>, LightError> {
+        const MOST: u32 = 8;
+        if !(1..=MOST).contains(&cascades.count) {
+            return Err(LightError::Cascades { count: cascades.count, max: MOST });
+        }
+        let everything = visible_hull(stage.camera, &stage.scene, 0.0..=f32::INFINITY);
+        if everything.is_empty() {
+            return Err(LightError::NothingVisible { at: String::new() });
+        }
+        let fit = |receivers| Fit {
+            casters: stage.scene,
+            receivers,
+            size: stage.size,
+            margin_texels: stage.margin_texels,
+        };
+        if cascades.count == 1 || matches!(self, Self::Spot { .. }) {
+            return Ok(vec![self.view(&fit(everything))?]);
+        }
+        let distance = |p: &glam::Vec3| stage.camera.row(3).dot(p.extend(1.0));
+        let far = everything.iter().map(distance).fold(0.0, f32::max);
+        let near = everything.iter().map(distance).fold(far, f32::min).max(far * 1e-3);
+        let splits = cascades.splits(near, far * 1.0001);
+        let mut views = Vec::new();
+        for pair in splits.windows(2) {
+            // The first range reaches back to the eye.
+            let start = if pair[0] == splits[0] { 0.0 } else { pair[0] };
+            let seen = visible_hull(stage.camera, &stage.scene, start..=pair[1]);
+            if !seen.is_empty() {
+                views.push(self.view(&fit(seen))?);
+            }
+        }
+        Ok(views)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::{Vec3, camera::rh};
+
+    fn stage() -> Stage {
+        let look = rh::view::look_at_mat4(Vec3::new(0.0, 2.0, 50.0), Vec3::ZERO, Vec3::Y);
+        Stage {
+            camera: rh::proj::directx::perspective(1.0, 1.3, 0.1, 500.0) * look,
+            scene: Bounds { min: Vec3::new(-50.0, 0.0, -50.0), max: Vec3::new(50.0, 10.0, 50.0) },
+            size: Size::square(1024),
+            margin_texels: 3.0,
+        }
+    }
+
+    #[test]
+    fn splits_run_from_near_to_far_and_widen() {
+        let splits = Cascades::new(4).splits(0.1, 100.0);
+        assert!((splits[0] - 0.1).abs() < 1e-6 && (splits[4] - 100.0).abs() < 1e-3);
+        assert!(splits.windows(3).all(|s| s[2] - s[1] > s[1] - s[0]));
+        let even = Cascades { count: 4, blend: 0.0 }.splits(1.0, 101.0);
+        assert!((even[1] - 26.0).abs() < 1e-4);
+    }
+
+    #[test]
+    fn nearer_cascades_have_finer_texels() {
+        let sun = Light::Directional { direction: Vec3::new(0.3, -1.0, 0.1) };
+        let views = sun.views(&stage(), Cascades::new(4)).unwrap();
+        assert_eq!(views.len(), 4);
+        assert!(views.windows(2).all(|v| v[0].texel_world <= v[1].texel_world));
+        assert!(views[0].texel_world < 0.5 * views[3].texel_world);
+        let one = sun.views(&stage(), Cascades::new(1)).unwrap();
+        assert!(one[0].texel_world >= views[3].texel_world);
+    }
+
+    #[test]
+    fn no_cascades_and_nothing_in_sight_are_refused() {
+        let sun = Light::Directional { direction: Vec3::NEG_Y };
+        assert!(matches!(sun.views(&stage(), Cascades::new(0)), Err(LightError::Cascades { .. })));
+        let above = Bounds { min: Vec3::new(0.0, 0.0, 60.0), max: Vec3::new(1.0, 1.0, 61.0) };
+        let blind = Stage { scene: above, ..stage() };
+        assert!(matches!(sun.views(&blind, Cascades::new(2)), Err(LightError::NothingVisible { .. })));
+    }
+}

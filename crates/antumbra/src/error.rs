@@ -1,0 +1,155 @@
+//! What can go wrong, one enum per verb.
+
+use thiserror::Error;
+
+/// A setting that a technique does not have or does not take.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum SettingError {
+    /// No technique has that name.
+    #[error("unknown technique '{name}'; known: {}", known.join(", "))]
+    UnknownTechnique {
+        /// What was asked for.
+        name: String,
+        /// What there is.
+        known: Vec<String>,
+    },
+    /// The technique has no parameter of that name.
+    #[error("{technique} has no parameter '{name}'; it has: {}", known.join(", "))]
+    UnknownParameter {
+        /// Technique that was asked.
+        technique: String,
+        /// Parameter that was asked for.
+        name: String,
+        /// Parameters that it has.
+        known: Vec<String>,
+    },
+    /// A number outside the allowed range, not finite, or not whole where it must be.
+    #[error("{parameter} = {value} is out of range; allowed: {allowed}")]
+    OutOfRange {
+        /// `technique.parameter`.
+        parameter: String,
+        /// What was given.
+        value: String,
+        /// The range or rule.
+        allowed: String,
+    },
+    /// Not of the form `name.parameter=value,…`.
+    #[error("cannot read '{spec}': {reason}; write for example esm.c=60,kernel=7")]
+    Syntax {
+        /// The text that was given.
+        spec: String,
+        /// What is wrong with it.
+        reason: String,
+    },
+}
+
+/// Why a [`ShadowMap`](crate::ShadowMap) cannot be made on this device.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum Unsupported {
+    /// GL and WebGL2 can only compare depth textures, so nothing could be converted.
+    #[error(
+        "the {backend} backend is not supported (a depth texture can only be compared there); use Vulkan, Metal, DX12 or WebGPU"
+    )]
+    Backend {
+        /// Name of the backend.
+        backend: String,
+    },
+    /// Zero, or larger than the device allows.
+    #[error("a map of {width}×{height} texels is not possible; each side must be 1 to {max} on this device")]
+    Size {
+        /// Texels across.
+        width: u32,
+        /// Texels down.
+        height: u32,
+        /// Largest side.
+        max: u32,
+    },
+    /// Zero views, or more layers than the device allows.
+    #[error("{views} views need texture arrays of {layers} layers; 1 to {max} are possible on this device")]
+    Layers {
+        /// Views asked for.
+        views: u32,
+        /// Layers of the largest array.
+        layers: u32,
+        /// Largest number.
+        max: u32,
+    },
+    /// A feature or limit that the technique cannot do without.
+    #[error("{technique} needs {what}, which this device lacks; {instead}")]
+    Feature {
+        /// Name of the technique.
+        technique: String,
+        /// The feature or limit.
+        what: String,
+        /// What to do.
+        instead: String,
+    },
+    /// The caller's depth texture cannot be read.
+    #[error("the depth texture has {what} = {found}; needed: {needed}")]
+    Depth {
+        /// Property.
+        what: &'static str,
+        /// Its value.
+        found: String,
+        /// What is accepted.
+        needed: String,
+    },
+    /// A setting of the technique is out of range.
+    #[error(transparent)]
+    Setting(#[from] SettingError),
+}
+
+/// Why a light has no view.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum LightError {
+    /// Zero, NaN or infinite direction.
+    #[error("light direction {direction} has no length or is not finite")]
+    Direction {
+        /// What was given.
+        direction: glam::Vec3,
+    },
+    /// Zero, NaN or infinite position.
+    #[error("light position {position} is not finite")]
+    Position {
+        /// What was given.
+        position: glam::Vec3,
+    },
+    /// A spot's half angle must leave a perspective projection possible.
+    #[error("outer angle {radians} rad is out of range; allowed: more than 0, at most 1.48 (85°)")]
+    Angle {
+        /// Half angle in radians.
+        radians: f32,
+    },
+    /// Bounds with min > max or non-finite corners.
+    #[error("bounds {min} – {max} of the {what} are empty or not finite")]
+    Bounds {
+        /// casters or receivers.
+        what: &'static str,
+        /// Smallest corner.
+        min: glam::Vec3,
+        /// Largest corner.
+        max: glam::Vec3,
+    },
+    /// The camera sees nothing of the receivers.
+    #[error("no receiver lies inside the camera's view{at}")]
+    NothingVisible {
+        /// Which part of the view, if only part.
+        at: String,
+    },
+    /// The map is too small for its margin.
+    #[error("a map of {size} texels cannot hold a margin of {margin} texels on each side")]
+    Margin {
+        /// Smaller side in texels.
+        size: u32,
+        /// Margin in texels.
+        margin: f32,
+    },
+    /// No cascades, or too many.
+    #[error("{count} cascades are not possible; allowed: 1 to {max}")]
+    Cascades {
+        /// What was given.
+        count: u32,
+        /// Largest number.
+        max: u32,
+    },
+}

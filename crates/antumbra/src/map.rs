@@ -1,0 +1,450 @@
+//! The shadow map on the GPU. Only this file and those in `map/` create GPU objects.
+
+use crate::{
+    capabilities::Capabilities,
+    error::Unsupported,
+    light::{Size, View},
+    pass::{self, Place, Slot, Step},
+    shader::{self, ShaderText},
+    technique::{self, Bias, Binding, Map, Technique},
+};
+use wgpu::{RenderPass, TextureFormat};
+
+mod memory;
+mod pipelines;
+mod textures;
+mod uniforms;
+
+pub use memory::{Lifetime, Memory, MemoryItem};
+pub use pipelines::Pipelines;
+use textures::Textures;
+use uniforms::Uniforms;
+
+/// Format of the depth that casters draw into.
+pub const DEPTH_FORMAT: TextureFormat = TextureFormat::Depth32Float;
+
+/// Most colour attachments of a pass, on any device.
+const MOST_TARGETS: usize = 8;
+
+/// How a [`ShadowMap`] is made. A [`Size`] alone is enough.
+#[derive(Debug, Clone)]
+pub struct Options {
+    /// Texels of each view.
+    pub size: Size,
+    /// Most views (cascades) at a time, at least 1.
+    pub views: u32,
+    /// `None` takes what the technique needs by default.
+    pub bias: Option<Bias>,
+    /// Share it between maps, so that no shader is compiled twice.
+    pub pipelines: Option<Pipelines>,
+}
+
+impl From<Size> for Options {
+    fn from(size: Size) -> Self {
+        Self { size, views: 1, bias: None, pipelines: None }
+    }
+}
+
+impl Options {
+    /// The same with room for that many views.
+    #[must_use]
+    pub fn views(self, views: u32) -> Self {
+        Self { views, ..self }
+    }
+    /// The same with that bias.
+    #[must_use]
+    pub fn bias(self, bias: Bias) -> Self {
+        Self { bias: Some(bias), ..self }
+    }
+    /// The same with shared pipelines.
+    #[must_use]
+    pub fn pipelines(self, pipelines: &Pipelines) -> Self {
+        Self { pipelines: Some(pipelines.clone()), ..self }
+    }
+}
+
+/// Hears of every render pass that is encoded; may attach timestamps to it.
+pub trait Probe {
+    /// Called before the pass `label` (`cast`, `convert`, `blur`, `mips`) of view `view`.
+    fn pass(&mut self, label: &'static str, view: usize) -> Option<wgpu::RenderPassTimestampWrites<'_>>;
+}
+
+/// A probe that measures nothing.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct NoProbe;
+
+impl Probe for NoProbe {
+    fn pass(&mut self, _: &'static str, _: usize) -> Option<wgpu::RenderPassTimestampWrites<'_>> {
+        None
+    }
+}
+
+/// More views than the map was made for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("{given} views for a shadow map that was made for {room}; see Options::views")]
+pub struct TooManyViews {
+    /// Views given.
+    pub given: usize,
+    /// Views that there is room for.
+    pub room: usize,
+}
+
+/// A step with everything that encoding it takes.
+#[derive(Debug)]
+struct Draw {
+    label: &'static str,
+    pipeline: wgpu::RenderPipeline,
+    bind_group: wgpu::BindGroup,
+    targets: Vec<wgpu::TextureView>,
+}
+
+/// Textures, pipelines and bindings of one technique at one size.
+///
+/// Each frame: [`prepare`](Self::prepare) with the light's views, [`encode`](Self::encode) with a
+/// closure that draws the casters, then bind [`bind_group`](Self::bind_group) wherever a shader
+/// made with [`wgsl`](Self::wgsl) calls `shadow_visibility`. Nothing is allocated on the GPU after
+/// `new`; nothing is submitted, polled or read back.
+#[derive(Debug)]
+pub struct ShadowMap {
+    technique: Box<dyn Technique>,
+    capabilities: Capabilities,
+    size: Size,
+    room: u32,
+    textures: Textures,
+    uniforms: Uniforms,
+    draws: Vec<Vec<Draw>>,
+    layout: wgpu::BindGroupLayout,
+    bind_group: wgpu::BindGroup,
+    views: Vec<View>,
+}
+
+impl ShadowMap {
+    /// Allocates everything for casters that are drawn by [`encode`](Self::encode).
+    ///
+    /// # Errors
+    /// [`Unsupported`]: size, number of views, settings or device.
+    pub fn new(
+        device: &wgpu::Device,
+        technique: &dyn Technique,
+        options: impl Into<Options>,
+    ) -> Result<Self, Unsupported> {
+        Self::build(device, technique, &options.into(), None)
+    }
+
+    /// Reads depth that the caller renders herself: a 2-D texture of any depth format without
+    /// stencil, one layer per view, with usage `TEXTURE_BINDING`, z in [0,1] from near to far as
+    /// [`View::clip_from_world`] gives it. `options.size` and `options.views` are taken from the
+    /// texture. Use [`encode_filter`](Self::encode_filter) instead of `encode`.
+    ///
+    /// # Errors
+    /// [`Unsupported::Depth`] if the texture cannot be read, else as [`new`](Self::new).
+    pub fn from_depth(
+        device: &wgpu::Device,
+        technique: &dyn Technique,
+        depth: &wgpu::Texture,
+        options: impl Into<Options>,
+    ) -> Result<Self, Unsupported> {
+        textures::check_depth(depth)?;
+        let size = Size { width: depth.width(), height: depth.height() };
+        let options = Options { size, views: depth.depth_or_array_layers(), ..options.into() };
+        Self::build(device, technique, &options, Some(depth))
+    }
+
+    fn build(
+        device: &wgpu::Device,
+        technique: &dyn Technique,
+        options: &Options,
+        depth: Option<&wgpu::Texture>,
+    ) -> Result<Self, Unsupported> {
+        technique::check(technique)?;
+        let capabilities = Capabilities::of(device);
+        let maps = technique.maps(&capabilities)?;
+        check_device(device, &maps, options)?;
+        let pipelines = options.pipelines.clone().unwrap_or_else(|| Pipelines::new(device));
+        let compares = technique.bindings().contains(&Binding::Depth);
+        let textures = Textures::new(device, &maps, options, depth, compares);
+        let bias = options.bias.unwrap_or_else(|| technique.bias());
+        let uniforms = Uniforms::new(device, technique, bias, options);
+        let steps = pass::plan(technique, &capabilities, &maps, options.size);
+        let draws = (0..options.views)
+            .map(|view| {
+                steps.iter().map(|step| draw(&pipelines, &textures, &uniforms, &maps, step, view)).collect()
+            })
+            .collect();
+        let (layout, bind_group) = receiver_group(device, technique, &capabilities, &textures, &uniforms);
+        Ok(Self {
+            technique: technique.boxed(),
+            capabilities,
+            size: options.size,
+            room: options.views,
+            textures,
+            uniforms,
+            draws,
+            layout,
+            bind_group,
+            views: Vec::with_capacity(options.views as usize),
+        })
+    }
+
+    /// Takes the light's views for this frame, nearest first; the first that contains a receiver
+    /// is the one that shades it.
+    ///
+    /// # Errors
+    /// [`TooManyViews`], and then the previous views stay.
+    pub fn prepare(&mut self, queue: &wgpu::Queue, views: &[View]) -> Result<(), TooManyViews> {
+        if views.len() > self.room as usize {
+            return Err(TooManyViews { given: views.len(), room: self.room as usize });
+        }
+        self.views.clear();
+        self.views.extend_from_slice(views);
+        self.uniforms.write(queue, views);
+        Ok(())
+    }
+
+    /// Draws the casters of every view and filters what they leave. `draw` gets the view, whose
+    /// [`clip_from_world`](View::clip_from_world) places the casters, and a pass with a depth
+    /// attachment of [`DEPTH_FORMAT`], cleared to 1, and no colour.
+    pub fn encode(&self, encoder: &mut wgpu::CommandEncoder, draw: impl FnMut(&View, &mut RenderPass<'_>)) {
+        self.encode_probed(encoder, &mut NoProbe, draw);
+    }
+
+    /// [`encode`](Self::encode) with a probe in every pass.
+    pub fn encode_probed(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        probe: &mut dyn Probe,
+        mut draw: impl FnMut(&View, &mut RenderPass<'_>),
+    ) {
+        for view in 0..self.views.len() {
+            self.encode_cast(encoder, view, probe, &mut draw);
+            self.encode_view_filter(encoder, view, probe);
+        }
+    }
+
+    /// Filters depth that the caller has rendered ([`from_depth`](Self::from_depth)).
+    pub fn encode_filter(&self, encoder: &mut wgpu::CommandEncoder, probe: &mut dyn Probe) {
+        for view in 0..self.views.len() {
+            self.encode_view_filter(encoder, view, probe);
+        }
+    }
+
+    fn encode_cast(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        view: usize,
+        probe: &mut dyn Probe,
+        draw: &mut impl FnMut(&View, &mut RenderPass<'_>),
+    ) {
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("shadow cast"),
+            color_attachments: &[],
+            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                view: self.textures.caster_target(view),
+                depth_ops: Some(wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(1.0),
+                    store: wgpu::StoreOp::Store,
+                }),
+                stencil_ops: None,
+            }),
+            timestamp_writes: probe.pass("cast", view),
+            occlusion_query_set: None,
+            multiview_mask: None,
+        });
+        draw(&self.views[view], &mut pass);
+    }
+
+    fn encode_view_filter(&self, encoder: &mut wgpu::CommandEncoder, view: usize, probe: &mut dyn Probe) {
+        for draw in &self.draws[view] {
+            let attachments: [_; MOST_TARGETS] =
+                std::array::from_fn(|i| draw.targets.get(i).map(textures::overwrite));
+            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                label: Some(draw.label),
+                color_attachments: &attachments[..draw.targets.len()],
+                depth_stencil_attachment: None,
+                timestamp_writes: probe.pass(draw.label, view),
+                occlusion_query_set: None,
+                multiview_mask: None,
+            });
+            pass.set_pipeline(&draw.pipeline);
+            pass.set_bind_group(0, &draw.bind_group, &[]);
+            pass.draw(0..3, 0..1);
+        }
+    }
+
+    /// Layout of [`bind_group`](Self::bind_group), visible to fragment and compute shaders.
+    #[must_use]
+    pub fn layout(&self) -> &wgpu::BindGroupLayout {
+        &self.layout
+    }
+
+    /// What `shadow_visibility` reads. Stays the same for the life of the map.
+    #[must_use]
+    pub fn bind_group(&self) -> &wgpu::BindGroup {
+        &self.bind_group
+    }
+
+    /// `shadow_visibility(position, normal, ddx, ddy) -> f32` with all it needs, bound in `group`.
+    #[must_use]
+    pub fn wgsl(&self, group: u32) -> ShaderText {
+        shader::receiver(self.technique.as_ref(), &self.capabilities, self.room, group)
+    }
+
+    /// What `shadow_visibility` is made from.
+    #[must_use]
+    pub fn technique(&self) -> &dyn Technique {
+        self.technique.as_ref()
+    }
+
+    /// Texels of each view.
+    #[must_use]
+    pub fn size(&self) -> Size {
+        self.size
+    }
+
+    /// Free texels that a view should leave on each side ([`Fit::margin_texels`](crate::Fit)).
+    #[must_use]
+    pub fn margin_texels(&self) -> f32 {
+        self.technique.reach_texels().ceil() + 1.0
+    }
+
+    /// Every texture and buffer that was allocated, mips included.
+    #[must_use]
+    pub fn memory(&self) -> Memory {
+        self.textures.memory(&self.uniforms)
+    }
+
+    /// Which formats and paths were chosen on this device, one sentence each.
+    #[must_use]
+    pub fn explain(&self) -> Vec<String> {
+        let mut lines = Vec::new();
+        if !self.capabilities.clamps_depth() {
+            lines.push(
+                "no depth clamping (depth-clip-control): move vertices onto the near plane with caster_pancaked"
+                    .into(),
+            );
+        }
+        for map in self.textures.maps() {
+            let format = map.texture.format();
+            let way =
+                if self.capabilities.filters(format) { "the sampler" } else { "the shader (four loads)" };
+            lines.push(format!("{} in {format:?}, interpolated by {way}", map.name));
+            let together = self.capabilities.targets_per_pass(format).min(map.layers);
+            if together < map.layers {
+                lines.push(format!("{} layers of {} in passes of {together}", map.layers, map.name));
+            }
+        }
+        lines
+    }
+}
+
+/// Backend, size and layers against the device.
+fn check_device(device: &wgpu::Device, maps: &[Map], options: &Options) -> Result<(), Unsupported> {
+    let backend = device.adapter_info().backend;
+    if backend == wgpu::Backend::Gl {
+        return Err(Unsupported::Backend { backend: backend.to_string() });
+    }
+    let limits = device.limits();
+    let Size { width, height } = options.size;
+    let max = limits.max_texture_dimension_2d;
+    if !(1..=max).contains(&width) || !(1..=max).contains(&height) {
+        return Err(Unsupported::Size { width, height, max });
+    }
+    let layers = maps.iter().map(|m| m.layers).max().unwrap_or(1).saturating_mul(options.views);
+    let uniform_views = (limits.max_uniform_buffer_binding_size - 256) / uniforms::VIEW_BYTES;
+    let max = limits.max_texture_array_layers;
+    if !(1..=max).contains(&layers) || u64::from(options.views) > uniform_views {
+        return Err(Unsupported::Layers { views: options.views, layers, max });
+    }
+    Ok(())
+}
+
+/// Binds a step to the textures of one view.
+fn draw(
+    pipelines: &Pipelines,
+    textures: &Textures,
+    uniforms: &Uniforms,
+    maps: &[Map],
+    step: &Step,
+    view: u32,
+) -> Draw {
+    let formats: Vec<TextureFormat> = step
+        .targets
+        .iter()
+        .map(|t| match t.slot {
+            Slot::Map(i) | Slot::Scratch(i) => maps[i].format,
+            Slot::Casters => DEPTH_FORMAT,
+        })
+        .collect();
+    let place = |p: &Place| textures.view(p, view);
+    let source = place(&step.source);
+    let bind_group = match step.source.slot {
+        Slot::Casters => pipelines.bind_depth(&source, uniforms.convert(view)),
+        Slot::Map(_) | Slot::Scratch(_) => pipelines.bind_texture(&source),
+    };
+    Draw {
+        label: step.label,
+        pipeline: pipelines.get(step, &formats),
+        bind_group,
+        targets: step.targets.iter().map(place).collect(),
+    }
+}
+
+/// Layout and bind group of the receiver.
+fn receiver_group(
+    device: &wgpu::Device,
+    technique: &dyn Technique,
+    capabilities: &Capabilities,
+    textures: &Textures,
+    uniforms: &Uniforms,
+) -> (wgpu::BindGroupLayout, wgpu::BindGroup) {
+    use wgpu::{BindingResource, BindingType, SamplerBindingType, TextureSampleType};
+    let texture = |sample_type| BindingType::Texture {
+        sample_type,
+        view_dimension: wgpu::TextureViewDimension::D2Array,
+        multisampled: false,
+    };
+    let filterable = textures.maps().iter().all(|m| capabilities.filters(m.texture.format()));
+    let bindings = technique.bindings();
+    let samplers: Vec<wgpu::Sampler> =
+        bindings.iter().map(|binding| textures::sampler(device, *binding, filterable)).collect();
+    let mut layout = vec![uniforms::layout_entry(0)];
+    let mut group = vec![wgpu::BindGroupEntry { binding: 0, resource: uniforms.receiver() }];
+    for (i, binding) in bindings.iter().enumerate() {
+        let (ty, resource) = match binding {
+            Binding::Depth => {
+                (texture(TextureSampleType::Depth), BindingResource::TextureView(textures.casters_array()))
+            }
+            Binding::Compare(_) => {
+                (BindingType::Sampler(SamplerBindingType::Comparison), BindingResource::Sampler(&samplers[i]))
+            }
+            Binding::Map(m) => {
+                let map = &textures.maps()[*m];
+                let filterable = capabilities.filters(map.texture.format());
+                (texture(TextureSampleType::Float { filterable }), BindingResource::TextureView(&map.array))
+            }
+            Binding::Sampler => {
+                let kind =
+                    if filterable { SamplerBindingType::Filtering } else { SamplerBindingType::NonFiltering };
+                (BindingType::Sampler(kind), BindingResource::Sampler(&samplers[i]))
+            }
+        };
+        let binding = i as u32 + 1;
+        layout.push(wgpu::BindGroupLayoutEntry {
+            binding,
+            visibility: wgpu::ShaderStages::FRAGMENT | wgpu::ShaderStages::COMPUTE,
+            ty,
+            count: None,
+        });
+        group.push(wgpu::BindGroupEntry { binding, resource });
+    }
+    let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("shadow map"),
+        entries: &layout,
+    });
+    let bind_group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some("shadow map"),
+        layout: &layout,
+        entries: &group,
+    });
+    (layout, bind_group)
+}

@@ -1,0 +1,223 @@
+//! The textures of a shadow map and the views of their layers and levels.
+
+use super::{
+    DEPTH_FORMAT, Options,
+    memory::{Lifetime, Memory, MemoryItem},
+    uniforms::Uniforms,
+};
+use crate::{
+    error::Unsupported,
+    light::Size,
+    pass::{self, Place, Slot},
+    technique::{Binding, Map, Pass},
+};
+use wgpu::{
+    TextureAspect, TextureFormat, TextureUsages, TextureView, TextureViewDescriptor, TextureViewDimension,
+};
+
+/// One entry of `Technique::maps`, allocated.
+#[derive(Debug)]
+pub(super) struct Kept {
+    pub(super) name: &'static str,
+    pub(super) layers: u32,
+    pub(super) texture: wgpu::Texture,
+    /// All layers and levels.
+    pub(super) array: TextureView,
+    scratch: Option<wgpu::Texture>,
+}
+
+/// Casters' depth, maps and scratch.
+#[derive(Debug)]
+pub(super) struct Textures {
+    casters: wgpu::Texture,
+    casters_array: TextureView,
+    /// One per view; the same one again and again where all views share it.
+    caster_targets: Vec<TextureView>,
+    casters_lifetime: Lifetime,
+    maps: Vec<Kept>,
+}
+
+impl Textures {
+    /// Casters' depth has a layer per view if receivers compare it, else one that all views share.
+    pub(super) fn new(
+        device: &wgpu::Device,
+        maps: &[Map],
+        options: &Options,
+        depth: Option<&wgpu::Texture>,
+        compares: bool,
+    ) -> Self {
+        let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING;
+        let layers = if compares { options.views } else { 1 };
+        let casters = depth.cloned().unwrap_or_else(|| {
+            texture(device, "casters' depth", options.size, layers, 1, DEPTH_FORMAT, usage)
+        });
+        let casters_lifetime = match (depth, compares) {
+            (Some(_), _) => Lifetime::Borrowed,
+            (None, true) => Lifetime::Kept,
+            (None, false) => Lifetime::Transient,
+        };
+        let layers = casters.depth_or_array_layers();
+        let caster_targets = (0..options.views).map(|view| one(&casters, view.min(layers - 1), 0)).collect();
+        let keep = |map: &Map| {
+            let levels = pass::levels(map, options.size);
+            let layers = map.layers * options.views;
+            let blurs = map.passes.iter().any(|p| matches!(p, Pass::Blur(_)));
+            let kept = texture(device, map.name, options.size, layers, levels, map.format, usage);
+            Kept {
+                name: map.name,
+                layers: map.layers,
+                array: all(&kept),
+                texture: kept,
+                scratch: blurs
+                    .then(|| texture(device, "blur scratch", options.size, 1, 1, map.format, usage)),
+            }
+        };
+        Self {
+            casters_array: all(&casters),
+            casters,
+            caster_targets,
+            casters_lifetime,
+            maps: maps.iter().map(keep).collect(),
+        }
+    }
+
+    /// Depth attachment of a view.
+    pub(super) fn caster_target(&self, view: usize) -> &TextureView {
+        &self.caster_targets[view]
+    }
+
+    /// All layers of the casters' depth.
+    pub(super) fn casters_array(&self) -> &TextureView {
+        &self.casters_array
+    }
+
+    pub(super) fn maps(&self) -> &[Kept] {
+        &self.maps
+    }
+
+    /// The layer and level of a place, for one view.
+    pub(super) fn view(&self, place: &Place, view: u32) -> TextureView {
+        match place.slot {
+            Slot::Casters => one(&self.casters, view.min(self.casters.depth_or_array_layers() - 1), 0),
+            Slot::Map(i) => {
+                let map = &self.maps[i];
+                one(&map.texture, view * map.layers + place.layer, place.mip)
+            }
+            Slot::Scratch(i) => {
+                let map = &self.maps[i];
+                one(map.scratch.as_ref().unwrap_or(&map.texture), 0, 0)
+            }
+        }
+    }
+
+    pub(super) fn memory(&self, uniforms: &Uniforms) -> Memory {
+        let mut items = vec![MemoryItem::texture("casters' depth", &self.casters, self.casters_lifetime)];
+        for map in &self.maps {
+            items.push(MemoryItem::texture(map.name, &map.texture, Lifetime::Kept));
+            items.extend(
+                map.scratch.iter().map(|s| MemoryItem::texture("blur scratch", s, Lifetime::Transient)),
+            );
+        }
+        items.extend(uniforms.memory());
+        Memory { items }
+    }
+}
+
+fn texture(
+    device: &wgpu::Device,
+    label: &str,
+    size: Size,
+    layers: u32,
+    mip_level_count: u32,
+    format: TextureFormat,
+    usage: TextureUsages,
+) -> wgpu::Texture {
+    device.create_texture(&wgpu::TextureDescriptor {
+        label: Some(label),
+        size: wgpu::Extent3d { width: size.width, height: size.height, depth_or_array_layers: layers },
+        mip_level_count,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage,
+        view_formats: &[],
+    })
+}
+
+fn one(texture: &wgpu::Texture, layer: u32, mip: u32) -> TextureView {
+    texture.create_view(&TextureViewDescriptor {
+        dimension: Some(TextureViewDimension::D2),
+        base_array_layer: layer,
+        array_layer_count: Some(1),
+        base_mip_level: mip,
+        mip_level_count: Some(1),
+        aspect: aspect(texture),
+        ..Default::default()
+    })
+}
+
+fn all(texture: &wgpu::Texture) -> TextureView {
+    texture.create_view(&TextureViewDescriptor {
+        dimension: Some(TextureViewDimension::D2Array),
+        aspect: aspect(texture),
+        ..Default::default()
+    })
+}
+
+fn aspect(texture: &wgpu::Texture) -> TextureAspect {
+    if texture.format().has_depth_aspect() { TextureAspect::DepthOnly } else { TextureAspect::All }
+}
+
+/// A colour attachment whose old content is not needed: every texel is written.
+pub(super) fn overwrite(view: &TextureView) -> wgpu::RenderPassColorAttachment<'_> {
+    wgpu::RenderPassColorAttachment {
+        view,
+        depth_slice: None,
+        resolve_target: None,
+        ops: wgpu::Operations {
+            load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+            store: wgpu::StoreOp::Store,
+        },
+    }
+}
+
+/// The sampler of a binding (an unused one for textures).
+pub(super) fn sampler(device: &wgpu::Device, binding: Binding, filterable: bool) -> wgpu::Sampler {
+    let (filter, compare) = match binding {
+        Binding::Compare(filter) => (filter, Some(wgpu::CompareFunction::LessEqual)),
+        _ if filterable => (wgpu::FilterMode::Linear, None),
+        _ => (wgpu::FilterMode::Nearest, None),
+    };
+    let mipmap_filter = match (filter, compare) {
+        (wgpu::FilterMode::Linear, None) => wgpu::MipmapFilterMode::Linear,
+        _ => wgpu::MipmapFilterMode::Nearest,
+    };
+    device.create_sampler(&wgpu::SamplerDescriptor {
+        label: Some("shadow map"),
+        mag_filter: filter,
+        min_filter: filter,
+        mipmap_filter,
+        compare,
+        ..Default::default()
+    })
+}
+
+/// Whether the passes can read a caller's depth.
+pub(super) fn check_depth(depth: &wgpu::Texture) -> Result<(), Unsupported> {
+    let wrong =
+        |what, found: String, needed: &str| Err(Unsupported::Depth { what, found, needed: needed.into() });
+    let format = depth.format();
+    if !format.has_depth_aspect() {
+        return wrong("format", format!("{format:?}"), "a depth format");
+    }
+    if !depth.usage().contains(TextureUsages::TEXTURE_BINDING) {
+        return wrong("usage", format!("{:?}", depth.usage()), "TEXTURE_BINDING");
+    }
+    if depth.dimension() != wgpu::TextureDimension::D2 {
+        return wrong("dimension", format!("{:?}", depth.dimension()), "2-D, one layer per view");
+    }
+    if depth.sample_count() != 1 {
+        return wrong("samples", depth.sample_count().to_string(), "1");
+    }
+    Ok(())
+}

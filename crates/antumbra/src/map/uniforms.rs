@@ -1,0 +1,137 @@
+//! The uniform buffers of receivers and of the convert pass.
+
+use super::{Options, memory::MemoryItem};
+use crate::{
+    light::View,
+    technique::{Bias, Technique},
+};
+
+/// Rust side of `ShadowView` in the receiver's glue.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
+struct ShadowView {
+    clip_from_world: [[f32; 4]; 4],
+    depth_plane: [f32; 4],
+    to_light: [f32; 4],
+    texel_world: f32,
+    near_over_far: f32,
+    reach_x: f32,
+    reach_y: f32,
+}
+
+pub(super) const VIEW_BYTES: u64 = size_of::<ShadowView>() as u64;
+
+/// Both buffers and the bytes that are written to them each frame.
+#[derive(Debug)]
+pub(super) struct Uniforms {
+    receiver: wgpu::Buffer,
+    convert: wgpu::Buffer,
+    /// Distance between the convert settings of two views.
+    stride: u64,
+    room: usize,
+    bytes: Vec<u8>,
+    /// width, height, bias: what follows `views` and `view_count`, then the settings.
+    scalars: Vec<f32>,
+    settings: usize,
+    reach: [f32; 2],
+}
+
+impl Uniforms {
+    pub(super) fn new(
+        device: &wgpu::Device,
+        technique: &dyn Technique,
+        bias: Bias,
+        options: &Options,
+    ) -> Self {
+        let (width, height) = (options.size.width as f32, options.size.height as f32);
+        let settings: Vec<f32> = technique.uniforms().into_iter().map(|(_, value)| value).collect();
+        let mut scalars =
+            vec![width, height, bias.constant_texels, bias.slope_texels, bias.normal_offset_texels];
+        scalars.extend(&settings);
+        let room = options.views as usize;
+        let buffer = |label, size: u64| {
+            device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(label),
+                size: size.next_multiple_of(16),
+                usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+                mapped_at_creation: false,
+            })
+        };
+        let alignment = u64::from(device.limits().min_uniform_buffer_offset_alignment);
+        let stride = (4 * (1 + settings.len() as u64)).next_multiple_of(16).next_multiple_of(alignment);
+        let receiver = buffer("shadow receiver", room as u64 * VIEW_BYTES + 4 * (1 + scalars.len() as u64));
+        Self {
+            convert: buffer("shadow convert", room as u64 * stride),
+            bytes: Vec::with_capacity(receiver.size().max(room as u64 * stride) as usize),
+            receiver,
+            stride,
+            room,
+            scalars,
+            settings: settings.len(),
+            // A lookup within half a texel of the border would read beyond it; so does a kernel.
+            reach: [1.0 / width, 1.0 / height].map(|texel| (technique.reach_texels() * texel).min(0.499)),
+        }
+    }
+
+    pub(super) fn write(&mut self, queue: &wgpu::Queue, views: &[View]) {
+        let blank = <ShadowView as bytemuck::Zeroable>::zeroed();
+        self.bytes.clear();
+        for i in 0..self.room {
+            let view = views.get(i).map_or(blank, |v| ShadowView {
+                clip_from_world: v.clip_from_world.to_cols_array_2d(),
+                depth_plane: v.depth_plane.to_array(),
+                to_light: v.to_light.to_array(),
+                texel_world: v.texel_world,
+                near_over_far: v.near_over_far,
+                reach_x: self.reach[0],
+                reach_y: self.reach[1],
+            });
+            self.bytes.extend_from_slice(bytemuck::bytes_of(&view));
+        }
+        self.bytes.extend_from_slice(&(views.len() as u32).to_ne_bytes());
+        self.bytes.extend_from_slice(bytemuck::cast_slice(&self.scalars));
+        queue.write_buffer(&self.receiver, 0, &self.bytes);
+
+        let settings = &self.scalars[self.scalars.len() - self.settings..];
+        self.bytes.clear();
+        for (i, view) in views.iter().enumerate() {
+            self.bytes.resize(i * self.stride as usize, 0);
+            self.bytes.extend_from_slice(&view.near_over_far.to_ne_bytes());
+            self.bytes.extend_from_slice(bytemuck::cast_slice(settings));
+        }
+        queue.write_buffer(&self.convert, 0, &self.bytes);
+    }
+
+    pub(super) fn receiver(&self) -> wgpu::BindingResource<'_> {
+        self.receiver.as_entire_binding()
+    }
+
+    pub(super) fn convert(&self, view: u32) -> wgpu::BindingResource<'_> {
+        wgpu::BindingResource::Buffer(wgpu::BufferBinding {
+            buffer: &self.convert,
+            offset: u64::from(view) * self.stride,
+            size: std::num::NonZeroU64::new((4 * (1 + self.settings as u64)).next_multiple_of(16)),
+        })
+    }
+
+    pub(super) fn memory(&self) -> [MemoryItem; 2] {
+        [
+            MemoryItem::buffer("receiver uniforms", &self.receiver),
+            MemoryItem::buffer("convert uniforms", &self.convert),
+        ]
+    }
+}
+
+/// Layout entry of the receiver's uniforms.
+pub(super) fn layout_entry(binding: u32) -> wgpu::BindGroupLayoutEntry {
+    wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::FRAGMENT | wgpu::ShaderStages::COMPUTE,
+        ty: wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Uniform,
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        },
+        count: None,
+    }
+}

@@ -1,0 +1,228 @@
+//! Puts WGSL together: a technique's file, the shared files that it needs, and generated glue.
+//!
+//! WGSL files hold functions, constants and uniform structs only; textures and samplers reach them
+//! as parameters. The first line may be `//! needs a b`: stems of other files, or a slot such as
+//! `lookup` that one of the technique's [parts](crate::Technique::parts) fills
+//! (`lookup_trilinear`). Bound globals exist in the glue alone.
+
+use crate::{
+    capabilities::Capabilities,
+    technique::{Binding, Constant, DepthSpace, Map, Technique},
+};
+use std::fmt::Write;
+
+/// Every shared WGSL file by its stem; a folder's name is part of the stem.
+const FILES: &[(&str, &str)] = &[
+    ("caster", include_str!("shader/caster.wgsl")),
+    ("chebyshev", include_str!("shader/chebyshev.wgsl")),
+    ("level_hardware", include_str!("shader/level/hardware.wgsl")),
+    ("level_manual", include_str!("shader/level/manual.wgsl")),
+    ("lookup_anisotropic", include_str!("shader/lookup/anisotropic.wgsl")),
+    ("lookup_bilinear", include_str!("shader/lookup/bilinear.wgsl")),
+    ("lookup_nearest", include_str!("shader/lookup/nearest.wgsl")),
+    ("lookup_trilinear", include_str!("shader/lookup/trilinear.wgsl")),
+    ("raster", include_str!("shader/raster.wgsl")),
+    ("receiver", include_str!("shader/receiver.wgsl")),
+];
+
+/// WGSL for casters: `caster_pancaked(clip_from_world, position) -> vec4f`, for devices without
+/// depth clamping (see [`Capabilities::clamps_depth`]).
+pub const CASTER_WGSL: &str = FILES[0].1;
+
+/// A shader in pieces that remember which file they came from.
+#[derive(Debug, Clone)]
+pub struct ShaderText {
+    pieces: Vec<(String, String)>,
+}
+
+impl ShaderText {
+    /// Everything as one text.
+    #[must_use]
+    pub fn text(&self) -> String {
+        self.pieces.iter().map(|(_, text)| text.as_str()).collect()
+    }
+
+    /// The caller's shader, followed by this one: her `enable` lines stay first and her line
+    /// numbers stay right.
+    #[must_use]
+    pub fn after(&self, user: &str) -> wgpu::ShaderSource<'static> {
+        wgpu::ShaderSource::Wgsl(format!("{user}\n{}", self.text()).into())
+    }
+
+    /// File and line (from 1) of line `line` (from 1) of [`after`](Self::after)`(user)`, if it is
+    /// not the caller's own.
+    #[must_use]
+    pub fn locate(&self, user: &str, line: usize) -> Option<(&str, usize)> {
+        // `lines` would drop a final empty line, which the joining newline makes real.
+        let mut start = user.split('\n').count();
+        for (name, text) in &self.pieces {
+            let length = text.matches('\n').count();
+            if (start + 1..=start + length).contains(&line) {
+                return Some((name, line - start));
+            }
+            start += length;
+        }
+        None
+    }
+
+    fn push(&mut self, name: &str, text: &str) {
+        let end = if text.ends_with('\n') { "" } else { "\n" };
+        self.pieces.push((format!("{name}.wgsl"), format!("{text}{end}")));
+    }
+
+    /// The technique's own file and all that it needs, constants replaced, needs first.
+    pub(crate) fn library(technique: &dyn Technique, device: &Capabilities) -> Self {
+        let mut shader = Self { pieces: Vec::new() };
+        let parts = technique.parts(device);
+        shader.need("raster", &parts);
+        shader.need_all(technique.wgsl(), &parts);
+        shader.push(technique.page().name, technique.wgsl());
+        for constant in technique.constants() {
+            shader.replace(&constant);
+        }
+        shader
+    }
+
+    /// For tests: a file's text with all that it needs.
+    #[cfg(test)]
+    fn file(stem: &str, parts: &[&str]) -> Self {
+        let mut shader = Self { pieces: Vec::new() };
+        shader.need(stem, parts);
+        shader
+    }
+
+    fn need_all(&mut self, text: &str, parts: &[&str]) {
+        let needs = text.lines().next().and_then(|line| line.strip_prefix("//! needs ")).unwrap_or_default();
+        for stem in needs.split_whitespace() {
+            self.need(stem, parts);
+        }
+    }
+
+    fn need(&mut self, stem: &str, parts: &[&str]) {
+        let slot = format!("{stem}_");
+        let stem = parts.iter().find(|part| part.starts_with(&slot)).copied().unwrap_or(stem);
+        let name = format!("{stem}.wgsl");
+        if self.pieces.iter().any(|(n, _)| *n == name) {
+            return;
+        }
+        let text = FILES.iter().find(|(s, _)| *s == stem).map_or("", |(_, text)| *text);
+        debug_assert!(!text.is_empty(), "no WGSL file fills '{stem}' with the parts {parts:?}");
+        self.need_all(text, parts);
+        self.push(stem, text);
+    }
+
+    /// Replaces the one-line declaration of a constant.
+    fn replace(&mut self, constant: &Constant) {
+        let (name, declaration) = match constant {
+            Constant::Count(name, n) => (name, format!("const {name}: u32 = {n}u;")),
+            Constant::Array(name, values) => {
+                let list: Vec<String> = values.iter().map(|v| format!("{v:?}")).collect();
+                (name, format!("const {name} = array<f32, {}>({});", values.len(), list.join(", ")))
+            }
+        };
+        let starts = [format!("const {name} "), format!("const {name}:")];
+        let mut replaced = 0;
+        for (_, text) in &mut self.pieces {
+            *text = text
+                .split_inclusive('\n')
+                .map(|line| match starts.iter().any(|s| line.starts_with(s)) {
+                    true => {
+                        replaced += 1;
+                        format!("{declaration}\n")
+                    }
+                    false => line.to_string(),
+                })
+                .collect();
+        }
+        debug_assert_eq!(replaced, 1, "constant {name} must be declared once, on one line");
+    }
+}
+
+/// WGSL type of a binding.
+fn wgsl_type(binding: Binding) -> &'static str {
+    match binding {
+        Binding::Depth => "texture_depth_2d_array",
+        Binding::Compare(_) => "sampler_comparison",
+        Binding::Map(_) => "texture_2d_array<f32>",
+        Binding::Sampler => "sampler",
+    }
+}
+
+/// `shadow_visibility` and everything it needs, bound in `group`.
+pub(crate) fn receiver(
+    technique: &dyn Technique,
+    device: &Capabilities,
+    views: u32,
+    group: u32,
+) -> ShaderText {
+    let mut shader = ShaderText::library(technique, device);
+    shader.need("receiver", &[]);
+    let name = technique.page().name;
+    let mut glue = format!(
+        "struct ShadowView {{ clip_from_world: mat4x4f, depth_plane: vec4f, to_light: vec4f, texel_world: f32, near_over_far: f32, reach_x: f32, reach_y: f32 }}\n\
+         struct ShadowUniforms {{\n    views: array<ShadowView, {views}>,\n    view_count: u32, width: f32, height: f32,\n    constant_texels: f32, slope_texels: f32, normal_offset_texels: f32,\n"
+    );
+    for (uniform, _) in technique.uniforms() {
+        let _ = writeln!(glue, "    setting_{uniform}: f32,");
+    }
+    let _ = writeln!(glue, "}}\n@group({group}) @binding(0) var<uniform> shadow: ShadowUniforms;");
+    let mut arguments = String::new();
+    for (i, binding) in technique.bindings().into_iter().enumerate() {
+        let _ = writeln!(
+            glue,
+            "@group({group}) @binding({}) var shadow_binding_{i}: {};",
+            i + 1,
+            wgsl_type(binding)
+        );
+        let _ = write!(arguments, "shadow_binding_{i}, ");
+    }
+    let settings: String =
+        technique.uniforms().iter().map(|(uniform, _)| format!(", shadow.setting_{uniform}")).collect();
+    let (depth, slopes, scale) = match technique.depth_space() {
+        DepthSpace::Raster => ("ndc.z", "vec2f(s.z, t.z)", "raster_slope(linear, (*light).near_over_far)"),
+        DepthSpace::Linear => (
+            "linear",
+            "vec2f(dot((*light).depth_plane.xyz, tangent), dot((*light).depth_plane.xyz, bitangent))",
+            "1.0",
+        ),
+    };
+    let _ = write!(
+        glue,
+        "{}",
+        include_str!("shader/visibility.wgsl.in")
+            .replace("{depth}", depth)
+            .replace("{slopes}", slopes)
+            .replace("{scale}", scale)
+            .replace("{call}", &format!(
+                "{name}_visibility({arguments}uv, view, depth - bias, plane, gradient_x, gradient_y{settings})"
+            ))
+    );
+    shader.push("shadow_visibility", &glue);
+    shader
+}
+
+/// Full-screen pass that encodes the casters' depth into layers `first..first + count` of a map.
+pub(crate) fn convert(
+    technique: &dyn Technique,
+    device: &Capabilities,
+    map: &Map,
+    first: u32,
+    count: u32,
+) -> String {
+    let shader = ShaderText::library(technique, device);
+    let uniforms = technique.uniforms();
+    let members: String = uniforms.iter().map(|(name, _)| format!(", {name}: f32")).collect();
+    let settings: String = uniforms.iter().map(|(name, _)| format!(", convert.{name}")).collect();
+    let targets: String = (0..count).map(|i| format!("    @location({i}) layer_{i}: vec4f,\n")).collect();
+    let stores: String = (0..count)
+        .map(|i| format!("    targets.layer_{i} = {}(depths, {}u{settings});\n", map.encode, first + i))
+        .collect();
+    let glue = include_str!("pass/convert.wgsl.in")
+        .replace("{members}", &members)
+        .replace("{targets}", &targets)
+        .replace("{stores}", &stores);
+    shader.text() + &glue
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,273 @@
+//! What a shadow technique is, as a description, and the list of all of them.
+//!
+//! A [`Technique`] holds no GPU object: it says which texels it keeps ([`Map`]), how they are
+//! filtered ([`Pass`]), what its WGSL function reads ([`Binding`], [`Uniform`]) and what its
+//! settings are ([`Parameter`]). [`ShadowMap`](crate::ShadowMap) does the rest. To add one, write
+//! `technique/x.rs` and `technique/x.wgsl` and add a line to the list at the end of this file.
+
+use crate::{
+    capabilities::Capabilities,
+    error::{SettingError, Unsupported},
+    kernel::Kernel,
+    parameter::Parameter,
+};
+use std::fmt::Debug;
+
+/// How a technique gets from depth to visibility.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Family {
+    /// Keeps depth; compares many texels at lookup and averages the answers.
+    Comparison,
+    /// Keeps functions of depth that may be filtered before lookup.
+    Basis,
+    /// Keeps triangles; reconstructs the edge at lookup.
+    Geometry,
+}
+
+impl Family {
+    /// `comparison`, `basis` or `geometry`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Comparison => "comparison",
+            Self::Basis => "basis",
+            Self::Geometry => "geometry",
+        }
+    }
+}
+
+/// Who a technique is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Page {
+    /// The stem of its files and WGSL functions.
+    pub name: &'static str,
+    /// Its usual name.
+    pub title: &'static str,
+    /// Its family.
+    pub family: Family,
+    /// Who published it.
+    pub paper: &'static str,
+}
+
+/// One filterable texture array that a technique keeps per view.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Map {
+    /// Name in memory listings.
+    pub name: &'static str,
+    /// Storage; must be a colour format that can be rendered to.
+    pub format: wgpu::TextureFormat,
+    /// Array layers per view.
+    pub layers: u32,
+    /// WGSL function `(depths: mat3x3f, layer: u32, settings…) -> vec4f` that makes layer `layer`
+    /// from the linear depths of a texel and its neighbours: `depths[1][1]` is the texel itself,
+    /// `depths[1 + dx][1 + dy]` its neighbour. What is not read is not fetched.
+    pub encode: &'static str,
+    /// What happens between casting and lighting, in order.
+    pub passes: Vec<Pass>,
+}
+
+/// A step of the pre-filter.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Pass {
+    /// Separable convolution of every layer, edge texels repeated.
+    Blur(Kernel),
+    /// The full mip chain by 2×2 means.
+    Mips,
+}
+
+/// A texture or sampler that the technique's WGSL function takes, in parameter order.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Binding {
+    /// `texture_depth_2d_array`: the depth of the casters, one layer per view, as rasterised.
+    Depth,
+    /// `sampler_comparison`, less-or-equal: one texel, or four with bilinear weights.
+    Compare(wgpu::FilterMode),
+    /// `texture_2d_array<f32>`: entry of [`Technique::maps`]; view `v` starts at layer
+    /// `v · layers`.
+    Map(usize),
+    /// `sampler` for the maps: clamped, linear where the device can filter them.
+    Sampler,
+}
+
+/// A run-time setting of the WGSL functions: `(name, value)`. Becomes a member of the uniform
+/// struct and an argument, in this order, of `x_visibility` and of the encode function.
+pub type Uniform = (&'static str, f32);
+
+/// A compile-time setting: the one-line `const NAME…;` of the technique's WGSL is replaced.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Constant {
+    /// `const NAME: u32 = …;`
+    Count(&'static str, u32),
+    /// `const NAME = array<f32, n>(…);`
+    Array(&'static str, Vec<f32>),
+}
+
+/// Receiver bias: how far the receiver's depth is pulled towards the light before it is compared.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Bias {
+    /// Along the light, in texels (world size of one texel at the receiver).
+    pub constant_texels: f32,
+    /// Times the depth that the receiver's plane gains over one texel in x plus one in y. One half
+    /// covers the distance from a point to the centre of its texel, one covers bilinear lookups.
+    pub slope_texels: f32,
+    /// Along the receiver's normal, in texels.
+    pub normal_offset_texels: f32,
+}
+
+impl Bias {
+    /// No bias at all.
+    pub const NONE: Self = Self { constant_texels: 0.0, slope_texels: 0.0, normal_offset_texels: 0.0 };
+}
+
+/// The depth that a technique's visibility function receives.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum DepthSpace {
+    /// What the rasteriser stores: projected depth. For comparing with [`Binding::Depth`].
+    Raster,
+    /// Linear in [0,1] from near to far. For everything encoded from [`Map`]s.
+    Linear,
+}
+
+/// A shadow technique, described. Public fields are its settings; no GPU object inside.
+///
+/// Its WGSL defines, for a technique named `x`,
+/// `x_visibility(bindings…, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f,
+/// ddy: vec2f, uniforms…) -> f32`: `uv` in the map, y down; `depth` of the receiver, bias applied,
+/// in [`Technique::depth_space`]; `plane`, the depth that the receiver's plane gains per unit of
+/// `uv`; `ddx`, `ddy`, the change of `uv` from this pixel to the next. The result is 0 (in shadow)
+/// to 1 (lit).
+pub trait Technique: Debug + Send + Sync {
+    /// Name, title, family, paper.
+    fn page(&self) -> Page;
+    /// The settings, in the order in which they should be shown.
+    fn parameters(&mut self) -> Vec<Parameter<'_>>;
+    /// The textures it keeps on such a device; none for the comparison family, which keeps depth.
+    ///
+    /// # Errors
+    /// [`Unsupported::Feature`] where no format will do.
+    fn maps(&self, device: &Capabilities) -> Result<Vec<Map>, Unsupported>;
+    /// What its visibility function reads, in parameter order.
+    fn bindings(&self) -> Vec<Binding>;
+    /// Its WGSL: the file beside the Rust file.
+    fn wgsl(&self) -> &'static str;
+    /// Run-time settings of its WGSL functions.
+    fn uniforms(&self) -> Vec<Uniform> {
+        Vec::new()
+    }
+    /// Compile-time settings of its WGSL.
+    fn constants(&self) -> Vec<Constant> {
+        Vec::new()
+    }
+    /// Shared WGSL that its own file leaves open, such as the lookup that its sampling setting
+    /// chooses: stems of files in `shader/`.
+    fn parts(&self, _device: &Capabilities) -> Vec<&'static str> {
+        Vec::new()
+    }
+    /// The bias that it needs by default.
+    fn bias(&self) -> Bias {
+        Bias::NONE
+    }
+    /// The depth that it compares.
+    fn depth_space(&self) -> DepthSpace {
+        DepthSpace::Linear
+    }
+    /// Half the width of its kernel: how far outside a point's own texel a lookup may read, in
+    /// texels. Views leave that much margin.
+    fn reach_texels(&self) -> f32;
+    /// Largest error that ringing and quantisation leave where the shadow test is clear-cut: the
+    /// visibility deep behind a full blocker is at most this, in the open at least one minus this.
+    fn ripple(&self) -> f32 {
+        0.0
+    }
+    /// A copy behind a pointer.
+    fn boxed(&self) -> Box<dyn Technique>;
+}
+
+impl Clone for Box<dyn Technique> {
+    fn clone(&self) -> Self {
+        self.boxed()
+    }
+}
+
+/// Checks every setting of a technique.
+///
+/// # Errors
+/// The first [`SettingError::OutOfRange`].
+pub fn check(technique: &dyn Technique) -> Result<(), SettingError> {
+    let name = technique.page().name;
+    technique.boxed().parameters().iter().try_for_each(|p| p.check(name))
+}
+
+/// Sets one parameter by name.
+///
+/// # Errors
+/// [`SettingError::UnknownParameter`], [`SettingError::OutOfRange`].
+pub fn set(technique: &mut dyn Technique, name: &str, value: &str) -> Result<(), SettingError> {
+    let page = technique.page();
+    let mut parameters = technique.parameters();
+    match parameters.iter_mut().find(|p| p.name == name) {
+        Some(parameter) => parameter.set(page.name, value),
+        None => Err(SettingError::UnknownParameter {
+            technique: page.name.into(),
+            name: name.into(),
+            known: parameters.iter().map(|p| p.name.into()).collect(),
+        }),
+    }
+}
+
+/// Reads `name` or `name.parameter=value,parameter=value`, starting from the defaults.
+///
+/// # Errors
+/// [`SettingError`]: unknown name or parameter, value out of range, syntax.
+pub fn parse(spec: &str) -> Result<Box<dyn Technique>, SettingError> {
+    let (name, settings) = spec.split_once('.').unwrap_or((spec, ""));
+    let Some(mut technique) = all().into_iter().find(|t| t.page().name == name) else {
+        let known = all().iter().map(|t| t.page().name.to_string()).collect();
+        return Err(SettingError::UnknownTechnique { name: name.into(), known });
+    };
+    for setting in settings.split(',').filter(|s| !s.is_empty()) {
+        let (key, value) = setting.split_once('=').ok_or_else(|| SettingError::Syntax {
+            spec: spec.into(),
+            reason: format!("'{setting}' has no '='"),
+        })?;
+        set(technique.as_mut(), key.trim(), value.trim())?;
+    }
+    Ok(technique)
+}
+
+/// The text that [`parse`] would read to get this technique: its name and what differs from the
+/// defaults.
+#[must_use]
+pub fn spec(technique: &dyn Technique) -> String {
+    let name = technique.page().name;
+    let mut plain = parse(name).unwrap_or_else(|_| technique.boxed());
+    let plain: Vec<String> = plain.parameters().iter().map(Parameter::value).collect();
+    let mut this = technique.boxed();
+    let changed: Vec<String> = std::iter::zip(this.parameters(), plain)
+        .filter(|(p, default)| p.value() != *default)
+        .map(|(p, _)| format!("{}={}", p.name, p.value()))
+        .collect();
+    if changed.is_empty() { name.to_string() } else { format!("{name}.{}", changed.join(",")) }
+}
+
+/// Declares the modules and [`all`]: one line per technique.
+macro_rules! techniques {
+    ($($module:ident :: $name:ident),+ $(,)?) => {
+        $(pub mod $module; pub use $module::$name;)+
+
+        /// Every technique with its default settings, in the order in which tables list them.
+        #[must_use]
+        pub fn all() -> Vec<Box<dyn Technique>> {
+            vec![$(Box::new($name::default())),+]
+        }
+    };
+}
+
+techniques! {
+    hard::Hard,
+    pcf::Pcf,
+    vsm::Vsm,
+    csm::Csm,
+    esm::Esm,
+}

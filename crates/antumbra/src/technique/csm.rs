@@ -1,0 +1,235 @@
+//! Convolution shadow maps: expand the shadow test into a Fourier series and filter its basis.
+//!
+//! The step f(d, z) becomes ½ + Σ 2/c_k · sin(c_k (z − d)), c_k = π(2k − 1), k = 1..M, which
+//! separates into functions of d and of z; the 2M functions of z are stored in 8 bits and filtered.
+//! The series ramps where the step jumps: surfaces near their caster come out too bright, more so
+//! with few terms; an offset of d (or a scale) brings lit surfaces from one half to one.
+//!
+//! Annen, Mertens, Bekaert, Seidel, Kautz 2007, "Convolution shadow maps". Eq. 11 there has the
+//! sign of d − z reversed; this is Eq. 13 and 14.
+
+use super::{Binding, Constant, Family, Map, Page, Technique, Uniform};
+use crate::{
+    capabilities::Capabilities,
+    error::Unsupported,
+    filter::Filter,
+    parameter::{Field, Parameter, choice},
+};
+use std::f64::consts::PI;
+
+choice! {
+    /// How lit surfaces are lifted from one half to one [section 3.2.2].
+    Lift {
+        /// Subtract [`Csm::offset`] from the receiver's depth; keeps the convolution.
+        Offset = "offset",
+        /// Multiply the result by two; steeper, brings aliasing back.
+        Scale = "scale",
+        /// Both.
+        Both = "both",
+        /// Neither: lit surfaces come out half lit. For figures.
+        None = "none",
+    }
+}
+
+/// Convolution shadow maps. ⌈M/2⌉ filtered lookups; 4·⌈M/2⌉ bytes per texel.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Csm {
+    /// Terms of the series, M, 1 to 16.
+    pub terms: u32,
+    /// Attenuation α: term k is weighted by exp(−α (k/M)²) against ringing.
+    pub attenuation: f32,
+    /// How lit surfaces are lifted.
+    pub lift: Lift,
+    /// Offset in depth ranges; 0 for the half width of the attenuated series' ramp.
+    pub offset: f32,
+    /// Blur, mips and sampling.
+    pub filter: Filter,
+}
+
+impl Default for Csm {
+    fn default() -> Self {
+        Self { terms: 16, attenuation: 1.0, lift: Lift::Offset, offset: 0.0, filter: Filter::default() }
+    }
+}
+
+const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+
+impl Csm {
+    fn layers(&self) -> u32 {
+        self.terms.div_ceil(2)
+    }
+
+    /// exp(−α (k/M)²), k = 1..M.
+    fn attenuations(&self) -> impl Iterator<Item = f64> {
+        let (m, alpha) = (f64::from(self.terms), f64::from(self.attenuation));
+        (1..=self.terms).map(move |k| (-alpha * (f64::from(k) / m).powi(2)).exp())
+    }
+
+    /// Half the width of the series' ramp, in depth ranges: the smallest t > 0 at which
+    /// ½ + Σ 2/c_k · attenuation_k · sin(c_k t) stops rising. 1/(2M) without attenuation.
+    #[must_use]
+    pub fn ramp(&self) -> f32 {
+        let slope = |t: f64| -> f64 {
+            self.attenuations().enumerate().map(|(k, a)| a * (PI * (2.0 * k as f64 + 1.0) * t).cos()).sum()
+        };
+        let step = 1.0 / (64.0 * f64::from(self.terms));
+        let mut low = 0.0;
+        while low < 0.5 && slope(low + step) > 0.0 {
+            low += step;
+        }
+        let mut high = (low + step).min(0.5);
+        for _ in 0..40 {
+            let middle = 0.5 * (low + high);
+            if slope(middle) > 0.0 { low = middle } else { high = middle }
+        }
+        high as f32
+    }
+}
+
+impl Csm {
+    /// Factor on all depths, at least one half. The square wave behind the series has period 2 and
+    /// steps back at z − d = ±1, with the same ramp: without room for it (and for the offset) a
+    /// receiver near the light would be dark in front of an empty texel. The paper, whose depth
+    /// range is not fitted this tightly, has no such factor.
+    #[must_use]
+    pub fn span(&self) -> f32 {
+        (1.0 - 2.0 * self.ramp()).max(0.5)
+    }
+}
+
+impl Technique for Csm {
+    fn page(&self) -> Page {
+        Page {
+            name: "csm",
+            title: "Convolution shadow map",
+            family: Family::Basis,
+            paper: "Annen et al. 2007",
+        }
+    }
+    fn parameters(&mut self) -> Vec<Parameter<'_>> {
+        let own = vec![
+            Parameter::new("terms", "", Field::Count(&mut self.terms, 1..=16), "terms of the Fourier series, M"),
+            Parameter::new(
+                "attenuation",
+                "",
+                Field::Number(&mut self.attenuation, 0.0..=10.0),
+                "α of exp(−α (k/M)²): less ringing, wider ramp",
+            ),
+            Parameter::new("lift", "", Field::Choice(&mut self.lift), "how lit surfaces are lifted from one half to one"),
+            Parameter::new(
+                "offset",
+                "depth range",
+                Field::Number(&mut self.offset, 0.0..=0.5),
+                "taken off the receiver's depth; 0 is the half width of the ramp",
+            ),
+        ];
+        own.into_iter().chain(self.filter.parameters()).collect()
+    }
+    fn maps(&self, _: &Capabilities) -> Result<Vec<Map>, Unsupported> {
+        Ok(vec![Map {
+            name: "basis",
+            format: FORMAT,
+            layers: self.layers(),
+            encode: "csm_encode",
+            passes: self.filter.passes(),
+        }])
+    }
+    fn bindings(&self) -> Vec<Binding> {
+        vec![Binding::Map(0), Binding::Sampler]
+    }
+    fn wgsl(&self) -> &'static str {
+        include_str!("csm.wgsl")
+    }
+    fn uniforms(&self) -> Vec<Uniform> {
+        let offset = if self.offset > 0.0 { self.offset } else { self.ramp() };
+        let (offset, scale) = match self.lift {
+            Lift::Offset => (offset, 1.0),
+            Lift::Scale => (0.0, 2.0),
+            Lift::Both => (offset, 2.0),
+            Lift::None => (0.0, 1.0),
+        };
+        vec![("span", self.span()), ("offset", offset), ("scale", scale)]
+    }
+    fn constants(&self) -> Vec<Constant> {
+        let mut weights: Vec<f32> = self
+            .attenuations()
+            .enumerate()
+            .map(|(k, a)| (2.0 * a / (PI * (2.0 * k as f64 + 1.0))) as f32)
+            .collect();
+        weights.resize(2 * self.layers() as usize, 0.0);
+        let own = [Constant::Count("csm_terms", self.terms), Constant::Array("csm_weights", weights)];
+        own.into_iter().chain(self.filter.constants()).collect()
+    }
+    fn parts(&self, device: &Capabilities) -> Vec<&'static str> {
+        self.filter.parts(device, FORMAT)
+    }
+    fn reach_texels(&self) -> f32 {
+        self.filter.reach_texels()
+    }
+    /// Overshoot of the series beyond its ramps, and half a step of 8 bits in every term.
+    fn ripple(&self) -> f32 {
+        let clear = f64::from(self.ramp())..=1.0 - f64::from(self.ramp());
+        let ringing = (0..=1024)
+            .map(|i| f64::from(i) / 1024.0)
+            .filter(|t| clear.contains(t))
+            .map(|t| (reference::series(self, 0.0, t) - 1.0).abs())
+            .fold(0.0, f64::max);
+        let quantisation: f64 = (1..=self.terms)
+            .zip(self.attenuations())
+            .map(|(k, a)| 2.0 * a / (PI * (2.0 * f64::from(k) - 1.0)) / 255.0 * std::f64::consts::SQRT_2)
+            .sum();
+        ((ringing + quantisation) * if matches!(self.lift, Lift::Scale | Lift::Both) { 2.0 } else { 1.0 }) as f32
+    }
+    fn boxed(&self) -> Box<dyn Technique> {
+        Box::new(*self)
+    }
+}
+
+/// The paper's formulas in f64: what the WGSL is tested against.
+pub mod reference {
+    use super::{Csm, PI};
+
+    /// (sin c_k z, cos c_k z).
+    #[must_use]
+    pub fn basis(k: u32, z: f64) -> [f64; 2] {
+        let angle = PI * (2.0 * f64::from(k) - 1.0) * z;
+        [angle.sin(), angle.cos()]
+    }
+    /// Eq. 13 with attenuation, unclamped, for one unfiltered caster depth.
+    #[must_use]
+    pub fn series(csm: &Csm, d: f64, z: f64) -> f64 {
+        let sum: f64 = std::iter::zip(1..=csm.terms, csm.attenuations())
+            .map(|(k, a)| {
+                let [[sd, cd], [sz, cz]] = [basis(k, d), basis(k, z)];
+                2.0 * a / (PI * (2.0 * f64::from(k) - 1.0)) * (cd * sz - sd * cz)
+            })
+            .sum();
+        0.5 + sum
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_ramp_is_half_a_period_of_the_highest_term_without_attenuation() {
+        for terms in 1..=16 {
+            let csm = Csm { terms, attenuation: 0.0, ..Csm::default() };
+            assert!((csm.ramp() - 1.0 / (2.0 * terms as f32)).abs() < 1e-5, "{terms}: {}", csm.ramp());
+            let softer = Csm { attenuation: 2.0, ..csm };
+            assert!(softer.ramp() >= csm.ramp());
+        }
+    }
+
+    #[test]
+    fn the_series_is_one_in_front_and_zero_behind_with_the_right_sign() {
+        let csm = Csm::default();
+        assert!((reference::series(&csm, 0.3, 0.7) - 1.0).abs() < 0.05);
+        assert!(reference::series(&csm, 0.7, 0.3).abs() < 0.05);
+        assert!((reference::series(&csm, 0.4, 0.4) - 0.5).abs() < 1e-9);
+        // With the offset a surface that is its own caster is lit.
+        assert!(reference::series(&csm, 0.4 - f64::from(csm.ramp()), 0.4) > 0.97);
+    }
+}

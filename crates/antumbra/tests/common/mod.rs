@@ -1,0 +1,252 @@
+//! A shadow map over any depth image, asked for its visibility at any point: light space is world
+//! space, with x and y in [−1,1] (y up) and depth z in [0,1].
+
+#![allow(dead_code, unreachable_pub, reason = "each test program uses a part")]
+
+use antumbra::{NoProbe, Options, ShadowMap, Size, Technique, View};
+use antumbra_testing::Gpu;
+use glam::{Mat4, Vec2, Vec3, Vec4};
+
+/// A point to be asked about.
+#[derive(Debug, Clone, Copy)]
+pub struct Receiver {
+    /// Texture coordinates, y down.
+    pub uv: Vec2,
+    /// Linear depth.
+    pub depth: f32,
+    /// Change of uv to the next pixel in x and in y.
+    pub footprint: Vec2,
+}
+
+impl Receiver {
+    /// A point with a footprint far below a texel.
+    pub fn point(u: f32, v: f32, depth: f32) -> Self {
+        Self { uv: Vec2::new(u, v), depth, footprint: Vec2::splat(1e-6) }
+    }
+}
+
+/// The view whose light space is world space.
+pub fn view(size: Size) -> View {
+    View {
+        clip_from_world: Mat4::IDENTITY,
+        depth_plane: Vec4::Z,
+        to_light: Vec4::NEG_Z,
+        texel_world: 2.0 / size.width as f32,
+        near_over_far: 1.0,
+        depth_world: 1.0,
+    }
+}
+
+/// A depth texture with `depth(x, y)` in texel (x, y), y down.
+pub fn depth_texture(gpu: &Gpu, size: Size, depth: impl Fn(u32, u32) -> f32) -> wgpu::Texture {
+    let texels: Vec<f32> = (0..size.height)
+        .flat_map(|y| (0..size.width).map(move |x| (x, y)))
+        .map(|(x, y)| depth(x, y))
+        .collect();
+    let texture = |format, usage| {
+        gpu.device.create_texture(&wgpu::TextureDescriptor {
+            label: Some("test depth"),
+            size: wgpu::Extent3d { width: size.width, height: size.height, depth_or_array_layers: 1 },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format,
+            usage,
+            view_formats: &[],
+        })
+    };
+    use wgpu::TextureUsages as Usage;
+    let source = texture(wgpu::TextureFormat::R32Float, Usage::TEXTURE_BINDING | Usage::COPY_DST);
+    let target = texture(antumbra::DEPTH_FORMAT, Usage::TEXTURE_BINDING | Usage::RENDER_ATTACHMENT);
+    gpu.queue.write_texture(
+        source.as_image_copy(),
+        bytes_of(&texels),
+        wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(4 * size.width), rows_per_image: None },
+        source.size(),
+    );
+    let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some("test depth"),
+        source: wgpu::ShaderSource::Wgsl(include_str!("depth.wgsl").into()),
+    });
+    let pipeline = gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some("test depth"),
+        layout: None,
+        vertex: wgpu::VertexState {
+            module: &module,
+            entry_point: Some("vertex"),
+            compilation_options: Default::default(),
+            buffers: &[],
+        },
+        primitive: Default::default(),
+        depth_stencil: Some(wgpu::DepthStencilState {
+            format: antumbra::DEPTH_FORMAT,
+            depth_write_enabled: Some(true),
+            depth_compare: Some(wgpu::CompareFunction::Always),
+            stencil: Default::default(),
+            bias: Default::default(),
+        }),
+        multisample: Default::default(),
+        fragment: Some(wgpu::FragmentState {
+            module: &module,
+            entry_point: Some("fragment"),
+            compilation_options: Default::default(),
+            targets: &[],
+        }),
+        multiview_mask: None,
+        cache: None,
+    });
+    let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: None,
+        layout: &pipeline.get_bind_group_layout(0),
+        entries: &[wgpu::BindGroupEntry {
+            binding: 0,
+            resource: wgpu::BindingResource::TextureView(&source.create_view(&Default::default())),
+        }],
+    });
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    {
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("test depth"),
+            color_attachments: &[],
+            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                view: &target.create_view(&Default::default()),
+                depth_ops: Some(wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(1.0),
+                    store: wgpu::StoreOp::Store,
+                }),
+                stencil_ops: None,
+            }),
+            timestamp_writes: None,
+            occlusion_query_set: None,
+            multiview_mask: None,
+        });
+        pass.set_pipeline(&pipeline);
+        pass.set_bind_group(0, &group, &[]);
+        pass.draw(0..3, 0..1);
+    }
+    gpu.queue.submit([encoder.finish()]);
+    target
+}
+
+/// A filtered shadow map over that depth.
+pub fn shadow_map(
+    gpu: &Gpu,
+    technique: &dyn Technique,
+    depth: &wgpu::Texture,
+    options: Options,
+) -> ShadowMap {
+    let mut shadows = ShadowMap::from_depth(&gpu.device, technique, depth, options).unwrap();
+    shadows.prepare(&gpu.queue, &[view(shadows.size())]).unwrap();
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    shadows.encode_filter(&mut encoder, &mut NoProbe);
+    gpu.queue.submit([encoder.finish()]);
+    shadows
+}
+
+/// `shadow_visibility` at receivers that face the light.
+pub fn visibility(gpu: &Gpu, shadows: &ShadowMap, receivers: &[Receiver]) -> Vec<f32> {
+    let rows: Vec<[Vec4; 3]> = receivers
+        .iter()
+        .map(|r| {
+            let position = Vec3::new(r.uv.x * 2.0 - 1.0, 1.0 - r.uv.y * 2.0, r.depth);
+            let ddx = Vec4::new(2.0 * r.footprint.x, 0.0, 0.0, 0.0);
+            let ddy = Vec4::new(0.0, -2.0 * r.footprint.y, 0.0, 0.0);
+            [position.extend(0.0), ddx, ddy]
+        })
+        .collect();
+    let rows: Vec<[f32; 12]> = rows.iter().map(|r| std::array::from_fn(|i| r[i / 4][i % 4])).collect();
+    let user = "
+        struct Row { position: vec4f, ddx: vec4f, ddy: vec4f }
+        @group(1) @binding(0) var<storage, read> rows: array<Row>;
+        @group(1) @binding(1) var<storage, read_write> results: array<f32>;
+        @compute @workgroup_size(64) fn main(@builtin(global_invocation_id) id: vec3u) {
+            if id.x >= arrayLength(&rows) { return; }
+            let row = rows[id.x];
+            results[id.x] = shadow_visibility(row.position.xyz, vec3f(0.0, 0.0, -1.0), row.ddx.xyz, row.ddy.xyz);
+        }";
+    compute(gpu, shadows, user, bytes_of(rows.as_flattened()), receivers.len(), receivers.len())
+}
+
+/// Runs `main` of a compute shader that may call everything in `shadows.wgsl(0)`: `input` at
+/// group 1 binding 0, `outputs` floats at binding 1, `invocations` in groups of 64.
+pub fn compute(
+    gpu: &Gpu,
+    shadows: &ShadowMap,
+    user: &str,
+    input: &[u8],
+    outputs: usize,
+    invocations: usize,
+) -> Vec<f32> {
+    use wgpu::BufferUsages as Usage;
+    let device = &gpu.device;
+    let buffer = |size: usize, usage| {
+        device.create_buffer(&wgpu::BufferDescriptor {
+            label: None,
+            size: size as u64,
+            usage,
+            mapped_at_creation: false,
+        })
+    };
+    let source = buffer(input.len(), Usage::STORAGE | Usage::COPY_DST);
+    let target = buffer(4 * outputs, Usage::STORAGE | Usage::COPY_SRC);
+    gpu.queue.write_buffer(&source, 0, input);
+    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: None,
+        source: shadows.wgsl(0).after(user),
+    });
+    let entry = |binding, read_only| wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::COMPUTE,
+        ty: wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Storage { read_only },
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        },
+        count: None,
+    };
+    let own = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: None,
+        entries: &[entry(0, true), entry(1, false)],
+    });
+    let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: None,
+        bind_group_layouts: &[Some(shadows.layout()), Some(&own)],
+        immediate_size: 0,
+    });
+    let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+        label: None,
+        layout: Some(&layout),
+        module: &module,
+        entry_point: Some("main"),
+        compilation_options: Default::default(),
+        cache: None,
+    });
+    let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: None,
+        layout: &own,
+        entries: &[
+            wgpu::BindGroupEntry { binding: 0, resource: source.as_entire_binding() },
+            wgpu::BindGroupEntry { binding: 1, resource: target.as_entire_binding() },
+        ],
+    });
+    let mut encoder = device.create_command_encoder(&Default::default());
+    {
+        let mut pass = encoder.begin_compute_pass(&Default::default());
+        pass.set_pipeline(&pipeline);
+        pass.set_bind_group(0, shadows.bind_group(), &[]);
+        pass.set_bind_group(1, &group, &[]);
+        pass.dispatch_workgroups(invocations.div_ceil(64) as u32, 1, 1);
+    }
+    gpu.queue.submit([encoder.finish()]);
+    floats(&gpu.read_buffer(&target))
+}
+
+/// Bytes of floats.
+pub fn bytes_of(values: &[f32]) -> &[u8] {
+    bytemuck::cast_slice(values)
+}
+
+/// Floats of bytes.
+pub fn floats(bytes: &[u8]) -> Vec<f32> {
+    bytes.chunks_exact(4).map(|b| f32::from_ne_bytes([b[0], b[1], b[2], b[3]])).collect()
+}
