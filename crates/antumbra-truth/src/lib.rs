@@ -8,6 +8,7 @@
 //! - [`Tracer::hard`]: the truth of one shadow ray per pixel centre.
 //! - [`Tracer::supersampled`]: the screen-space ideal, the truth for anti-aliasing.
 //! - [`Tracer::light_space_ideal`]: the filtered truth, for maps that are blurred.
+//! - [`Tracer::coverage`]: whether the rasteriser sees the same triangles, and if not, why.
 //!
 //! # Where a shadow ray starts
 //!
@@ -43,6 +44,7 @@
 //! conservative. Results do not depend on the number of threads.
 
 mod camera;
+mod coverage;
 mod error;
 mod ideal;
 mod kernel;
@@ -52,6 +54,7 @@ mod tree;
 mod triangle;
 
 pub use camera::{CameraRays, Ray};
+pub use coverage::{Coverage, CoverageTolerance, Difference};
 pub use error::TruthError;
 pub use kernel::{Kernel, MapPlane};
 pub use shadow::Visibility;

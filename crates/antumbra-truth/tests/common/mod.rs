@@ -59,8 +59,17 @@ pub fn sun(toward: DVec3) -> Light {
 }
 
 pub fn picture(position: DVec3, target: DVec3, size: [u32; 2]) -> CameraRays {
+    with_fov(position, target, size, 0.8)
+}
+
+/// A microscope: some `width` of the world around `target`, 120 × 90 pixels.
+pub fn zoom(position: DVec3, target: DVec3, width: f64) -> CameraRays {
+    with_fov(position, target, [120, 90], width / (target - position).length())
+}
+
+fn with_fov(position: DVec3, target: DVec3, size: [u32; 2], fov_y: f64) -> CameraRays {
     let up = if (target - position).normalize().y.abs() > 0.99 { Vec3::Z } else { Vec3::Y };
-    let camera = Camera { position: position.as_vec3(), target: target.as_vec3(), up, fov_y: 0.8 };
+    let camera = Camera { position: position.as_vec3(), target: target.as_vec3(), up, fov_y: fov_y as f32 };
     CameraRays::new(&camera, size[0], size[1]).unwrap()
 }
 
