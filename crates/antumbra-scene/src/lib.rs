@@ -7,6 +7,7 @@
 mod alpha;
 mod framing;
 mod geometry;
+pub mod import;
 pub mod procedural;
 mod scene;
 mod validate;

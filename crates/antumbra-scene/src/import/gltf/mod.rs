@@ -1,0 +1,199 @@
+//! glTF 2.0, read by our own schema: only what makes scenes is parsed, and every index is checked
+//! where it is followed.
+
+mod accessor;
+mod container;
+mod document;
+mod hierarchy;
+mod material;
+mod primitive;
+mod skin;
+mod topology;
+mod views;
+
+use super::error::{Problem, invalid};
+use crate::{Instance, Scene};
+use accessor::{Asset, follow};
+use document::{Document, Instancing};
+use glam::{DMat4, DQuat, DVec3, Mat4};
+use hierarchy::Hierarchy;
+use material::Surfaces;
+use std::collections::HashMap;
+use std::path::Path;
+
+/// Extensions that a file may require, for messages.
+pub(super) const SUPPORTED: &str = "KHR_lights_punctual, KHR_mesh_quantization, KHR_texture_transform, \
+                                    EXT_mesh_gpu_instancing and KHR_materials_*";
+
+fn supports(extension: &str) -> bool {
+    extension.starts_with("KHR_materials_") || SUPPORTED.split([',', ' ']).any(|name| name == extension)
+}
+
+/// Imports a file from its bytes; `folder` is where its other files are, if it may have any.
+pub(super) fn import(bytes: &[u8], folder: Option<&Path>, name: &str) -> Result<Scene, Problem> {
+    let (json, binary) = container::split(bytes)?;
+    let document: Document = container::parse(json)?;
+    container::check(&document)?;
+    let buffers = container::buffers(&document, binary, folder)?;
+    let asset = Asset { document, buffers };
+    asset.check()?;
+    let hierarchy = asset.hierarchy()?;
+    let surfaces = Surfaces::read(&asset, folder)?;
+    let scene = Scene { name: name.into(), ..Scene::default() };
+    let mut placer = Placer { asset: &asset, hierarchy, surfaces, scene, placed: HashMap::new(), skipped: 0 };
+    for place in 0..placer.hierarchy.shown.len() {
+        placer.node(placer.hierarchy.shown[place])?;
+    }
+    let scene = placer.finish();
+    scene.validate()?;
+    Ok(scene)
+}
+
+/// Walks the nodes and fills the scene.
+#[derive(Debug)]
+struct Placer<'a> {
+    asset: &'a Asset,
+    hierarchy: Hierarchy,
+    surfaces: Surfaces,
+    scene: Scene,
+    /// Scene meshes of each glTF mesh without skin or weights of its own.
+    placed: HashMap<usize, Vec<usize>>,
+    /// Primitives that draw no triangles.
+    skipped: usize,
+}
+
+impl Placer<'_> {
+    fn node(&mut self, index: usize) -> Result<(), Problem> {
+        let asset = self.asset;
+        let world = self.hierarchy.world_from_node[index];
+        asset.add_camera(&mut self.scene, index, world)?;
+        asset.add_light(&mut self.scene, index, world)?;
+        let node = &asset.document.nodes[index];
+        let Some(mesh) = node.mesh else { return Ok(()) };
+        let element = format!("nodes[{index}]");
+        follow(&asset.document.meshes, "meshes", mesh, &format!("{element}.mesh"))?;
+        if let Some(skin) = node.skin {
+            let matrices = asset.joint_matrices(skin, &self.hierarchy)?;
+            return self.skinned(mesh, node.weights.as_deref(), &matrices, world);
+        }
+        let meshes = match (&node.weights, self.placed.get(&mesh)) {
+            (None, Some(meshes)) => meshes.clone(),
+            (weights, _) => {
+                let meshes: Vec<usize> =
+                    self.mesh(mesh, weights.as_deref(), None)?.into_iter().map(|(mesh, _)| mesh).collect();
+                if weights.is_none() {
+                    self.placed.insert(mesh, meshes.clone());
+                }
+                meshes
+            }
+        };
+        let copies = instances(asset, index, &element)?;
+        for copy in copies {
+            self.place(&meshes, world * copy);
+        }
+        Ok(())
+    }
+
+    fn place(&mut self, meshes: &[usize], world: DMat4) {
+        let world_from_mesh: Mat4 = world.as_mat4();
+        self.scene.instances.extend(meshes.iter().map(|&mesh| Instance { mesh, world_from_mesh }));
+    }
+
+    /// Adds a mesh posed by its joints; parts without joints stand where their node does.
+    fn skinned(
+        &mut self,
+        mesh: usize,
+        weights: Option<&[f32]>,
+        matrices: &[DMat4],
+        world: DMat4,
+    ) -> Result<(), Problem> {
+        for (mesh, posed) in self.mesh(mesh, weights, Some(matrices))? {
+            self.place(&[mesh], if posed { DMat4::IDENTITY } else { world });
+        }
+        Ok(())
+    }
+
+    /// Adds the primitives of a mesh to the scene; says for each whether joints posed it.
+    fn mesh(
+        &mut self,
+        index: usize,
+        weights: Option<&[f32]>,
+        joints: Option<&[DMat4]>,
+    ) -> Result<Vec<(usize, bool)>, Problem> {
+        let asset = self.asset;
+        let mesh = &asset.document.meshes[index];
+        let weights = weights.unwrap_or(&mesh.weights);
+        let mut added = Vec::new();
+        for (i, primitive) in mesh.primitives.iter().enumerate() {
+            let element = format!("meshes[{index}].primitives[{i}]");
+            let material = match primitive.material {
+                Some(m) => {
+                    follow(&asset.document.materials, "materials", m, &format!("{element}.material"))?;
+                    m
+                }
+                None => self.surfaces.plain(),
+            };
+            let coordinates = self.surfaces.coordinates[material];
+            let Some(mut vertices) = asset.vertices(primitive, &element, weights, coordinates)? else {
+                self.skipped += 1;
+                continue;
+            };
+            let posed = joints.filter(|_| !vertices.joints.is_empty());
+            if let Some(matrices) = posed {
+                vertices.pose(matrices, &element)?;
+            }
+            let name = mesh.name.as_ref().map_or_else(|| element.clone(), |name| format!("{name}[{i}]"));
+            self.scene.meshes.push(vertices.into_mesh(&name, material));
+            added.push((self.scene.meshes.len() - 1, posed.is_some()));
+        }
+        Ok(added)
+    }
+
+    fn finish(self) -> Scene {
+        let mut scene = self.scene;
+        scene.materials = self.surfaces.materials;
+        scene.images = self.surfaces.images;
+        scene.notes.extend(self.surfaces.notes);
+        if self.skipped > 0 {
+            let skipped = self.skipped;
+            scene.notes.push(format!("{skipped} primitives without triangles or positions are left out"));
+        }
+        scene
+    }
+}
+
+/// The copies of a node's mesh relative to the node: one, or those of `EXT_mesh_gpu_instancing`.
+fn instances(asset: &Asset, node: usize, element: &str) -> Result<Vec<DMat4>, Problem> {
+    let name = "EXT_mesh_gpu_instancing";
+    let extensions = &asset.document.nodes[node].extensions;
+    let Some(Instancing { attributes }) = container::extension(extensions, name, element)? else {
+        return Ok(vec![DMat4::IDENTITY]);
+    };
+    let element = format!("{element}.extensions.{name}.attributes");
+    let count = match attributes.values().next() {
+        Some(&index) => {
+            follow(&asset.document.accessors, "accessors", index, &element)?;
+            asset.document.accessors[index].count
+        }
+        None => return Err(invalid(element, "empty", "at least one attribute is needed")),
+    };
+    let read = |name: &str| {
+        let of = |&index: &usize| asset.placement(index, &format!("{element}.{name}"), count);
+        attributes.get(name).map(of).transpose()
+    };
+    let [translations, rotations, scales] = [read("TRANSLATION")?, read("ROTATION")?, read("SCALE")?];
+    let place = |i: usize| {
+        let of = |values: &Option<Vec<[f32; 4]>>| values.as_ref().map(|v| v[i].map(f64::from));
+        let three = |v: [f64; 4]| DVec3::new(v[0], v[1], v[2]);
+        let rotation = of(&rotations).map_or(DQuat::IDENTITY, DQuat::from_array);
+        if rotation.length() < 1e-6 {
+            return Err(invalid(format!("{element}.ROTATION[{i}]"), rotation, "its length must be 1"));
+        }
+        Ok(DMat4::from_scale_rotation_translation(
+            of(&scales).map_or(DVec3::ONE, three),
+            rotation.normalize(),
+            of(&translations).map_or(DVec3::ZERO, three),
+        ))
+    };
+    (0..count).map(place).collect()
+}
