@@ -64,7 +64,7 @@ impl Coverage {
     /// How many unexplained pixels are listed.
     pub const SHOWN: usize = 16;
 
-    /// Share of pixels with the same triangle, in [0,1]; 1 for an empty picture.
+    /// Share of pixels with the same triangle, from 0 to 1; 1 for an empty picture.
     #[must_use]
     pub fn agreement(&self) -> f64 {
         if self.pixels == 0 { 1.0 } else { self.agree as f64 / self.pixels as f64 }

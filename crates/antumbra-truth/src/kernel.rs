@@ -50,7 +50,7 @@ impl Kernel {
         0.5 * (self.taps.len() as f64 + 1.0)
     }
 
-    /// The offset, in texels, that has the share `share` ∈ [0,1] of the weight to its left: the
+    /// The offset, in texels, that has the share `share` (0 to 1) of the weight to its left: the
     /// inverse of the kernel's cumulative distribution, which is quadratic between knots.
     #[must_use]
     pub fn offset(&self, share: f64) -> f64 {
@@ -156,7 +156,7 @@ mod tests {
     #[test]
     fn samples_fill_grids_evenly() {
         for scramble in [[0, 0], scramble(17), scramble(0)] {
-            let unit = |bits: u32, cells: u32| (u64::from(bits) * u64::from(cells) >> 32) as u32;
+            let unit = |bits: u32, cells: u32| ((u64::from(bits) * u64::from(cells)) >> 32) as u32;
             for (count, columns, rows) in [(64, 8, 8), (256, 16, 16), (256, 64, 4), (64, 2, 32)] {
                 let mut cells: Vec<u32> = (0..count)
                     .map(|i: u32| {

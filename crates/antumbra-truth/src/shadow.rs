@@ -14,7 +14,7 @@ pub struct Visibility {
     pub width: u32,
     /// Pixels down.
     pub height: u32,
-    /// Share of the light that arrives, in [0,1], linear; `width · height` values, row by row from
+    /// Share of the light that arrives, from 0 to 1, linear; `width · height` values, row by row from
     /// the top. 1 where the pixel is not shadowable.
     pub values: Vec<f32>,
     /// Whether the pixel can be scored: it sees geometry whose side towards the camera also faces

@@ -17,7 +17,7 @@ pub struct Hit {
     pub position: DVec3,
     /// Unit geometric normal on the camera's side. Zero for a miss.
     pub normal: DVec3,
-    /// Weight of the triangle's second corner, in [0,1].
+    /// Weight of the triangle's second corner, from 0 to 1.
     pub u: f64,
     /// Weight of its third; u + v ≤ 1 up to rounding.
     pub v: f64,

@@ -4,7 +4,7 @@
 //! in f64. Its boxes therefore only have to be *conservative*: they may let too much through, never
 //! too little. Three measures see to that:
 //!
-//! - the scene is moved and scaled by a power of two to fill [−[`HALF`], [`HALF`]]³, so that the
+//! - the scene is moved and scaled by a power of two to fill the cube of half side [`HALF`], so that the
 //!   rounding of f32 is a known absolute length, however far the scene is from the origin;
 //! - rays are clipped to that cube in f64 before they are rounded, so that their start is no larger
 //!   than the scene;

@@ -1,5 +1,7 @@
 //! Raster against rays, with rasterisers made wrong on purpose.
 
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 mod common;
 
 use antumbra_scene::{AlphaMode, Geometry, Image, Material};

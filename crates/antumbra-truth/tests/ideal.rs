@@ -1,5 +1,7 @@
 //! The light-space ideal against integrals that can be done by hand.
 
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 mod common;
 
 use antumbra_scene::Light;

@@ -1,5 +1,7 @@
 //! The tree finds what brute force finds, and closed meshes leak no ray.
 
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 mod common;
 
 use antumbra_scene::Geometry;

@@ -1,5 +1,5 @@
 //! Small scenes with known shadows.
-#![allow(dead_code, unreachable_pub, reason = "every test file uses its own part")]
+#![allow(dead_code, unreachable_pub, clippy::unwrap_used, reason = "every test file uses its own part")]
 
 use antumbra_scene::{Camera, Geometry, Light, Material};
 use antumbra_truth::CameraRays;
