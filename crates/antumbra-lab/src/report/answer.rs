@@ -1,0 +1,99 @@
+//! The answer in words, computed from the numbers.
+
+use super::text::{escape, list, milliseconds, percent, significant};
+use crate::results::{Results, TechniqueResult};
+
+/// The technique with the smallest cost; the first of equals.
+pub(super) fn best(results: &Results, cost: impl Fn(&TechniqueResult) -> f64) -> Option<&TechniqueResult> {
+    results.techniques.iter().min_by(|a, b| cost(a).total_cmp(&cost(b)))
+}
+
+fn name(technique: &TechniqueResult) -> String {
+    format!("<strong>{}</strong> <code>{}</code>", escape(&technique.title), escape(&technique.spec))
+}
+
+fn frame(technique: &TechniqueResult) -> String {
+    milliseconds(technique.time.frame.median_ms)
+}
+
+/// Who is best by error, by error and time, by time; and what the no-shadow baseline scores.
+pub(super) fn paragraph(results: &Results) -> String {
+    let light_space = |t: &TechniqueResult| t.scores.light_space.rmse;
+    let product = |t: &TechniqueResult| light_space(t) * t.time.frame.median_ms;
+    let mut sentences = Vec::new();
+    if let (Some(closest), Some(trade)) = (best(results, light_space), best(results, product)) {
+        sentences.push(format!(
+            "Closest to the light-space ideal, which every filtered map approximates, is {}: RMSE {} at {} a frame.",
+            name(closest),
+            significant(light_space(closest)),
+            frame(closest)
+        ));
+        sentences.push(if std::ptr::eq(closest, trade) {
+            "It is also the best trade, with the smallest error × frame time.".into()
+        } else {
+            format!(
+                "The best trade, with the smallest error × frame time, is {}: RMSE {} at {}.",
+                name(trade),
+                significant(light_space(trade)),
+                frame(trade)
+            )
+        });
+        sentences.extend(other_truths(results));
+        sentences.extend(fastest(results));
+    } else {
+        sentences.push("No technique was compared.".into());
+    }
+    sentences.push(baseline(results));
+    let device = results.adapter.device_type.to_lowercase();
+    if device.contains("cpu") || device.contains("software") {
+        sentences.push(
+            "Times are those of a software rasteriser: they rank work on this processor, not on a graphics card."
+                .into(),
+        );
+    }
+    format!("<p>{}</p>", sentences.join(" "))
+}
+
+fn other_truths(results: &Results) -> Option<String> {
+    let hard = best(results, |t| -t.scores.hard.pixel_match)?;
+    let smooth = best(results, |t| t.scores.screen_space.rmse)?;
+    Some(format!(
+        "Against the hard truth {} answers most pixels right ({}); against the anti-aliased screen-space \
+         ideal {} has the smallest error (RMSE {}).",
+        name(hard),
+        percent(hard.scores.hard.pixel_match),
+        name(smooth),
+        significant(smooth.scores.screen_space.rmse)
+    ))
+}
+
+/// The fastest frame, and whose measured range it cannot be told from.
+fn fastest(results: &Results) -> Option<String> {
+    let fastest = best(results, |t| t.time.frame.median_ms)?;
+    let overlaps =
+        |t: &&TechniqueResult| !std::ptr::eq(*t, fastest) && t.time.frame.min_ms <= fastest.time.frame.max_ms;
+    let rivals: Vec<String> = results.techniques.iter().filter(overlaps).map(|t| escape(&t.title)).collect();
+    let caution = match rivals.len() {
+        0 => String::new(),
+        1..=3 => format!(", though its range overlaps that of {}", list(&rivals)),
+        n => format!(", though its range overlaps those of {n} others"),
+    };
+    Some(format!("The shortest frame is that of {} ({}{caution}).", name(fastest), frame(fastest)))
+}
+
+fn baseline(results: &Results) -> String {
+    let none = &results.truth.no_shadow;
+    let beaten = |t: &&TechniqueResult| t.scores.hard.rmse >= none.rmse;
+    let losers: Vec<String> = results.techniques.iter().filter(beaten).map(|t| escape(&t.title)).collect();
+    let verdict = match losers.len() {
+        0 if results.techniques.is_empty() => String::new(),
+        0 => " Every technique has a smaller error than that.".into(),
+        1 => format!(" {} is no better than that.", losers[0]),
+        _ => format!(" {} are no better than that.", list(&losers)),
+    };
+    format!(
+        "For scale: drawing no shadow at all already matches {} of the shadowable pixels (RMSE {}).{verdict}",
+        percent(none.pixel_match),
+        significant(none.rmse)
+    )
+}

@@ -1,0 +1,172 @@
+//! The score table and the table of named regions.
+
+use super::column::{self, Better, Column};
+use super::text::{escape, percent, significant};
+use crate::metrics::Score;
+use crate::results::{Family, Results, TechniqueResult};
+use std::collections::BTreeSet;
+
+/// Name of a family for people and for CSS.
+pub(super) fn family(family: Family) -> (&'static str, &'static str) {
+    match family {
+        Family::Comparison => ("Comparison", "comparison"),
+        Family::Basis => ("Linear basis", "basis"),
+        Family::Geometry => ("Geometry", "geometry"),
+    }
+}
+
+/// The first cell of a technique's row.
+pub(super) fn row_head(technique: &TechniqueResult) -> String {
+    let (name, class) = family(technique.family);
+    format!(
+        "<th scope=\"row\" data-value=\"{title}\"><span class=\"mark {class}\" role=\"img\" aria-label=\"{name}\"></span>\
+         <span class=\"name\">{title}</span><code>{spec}</code></th>",
+        title = escape(&technique.title),
+        spec = escape(&technique.spec),
+    )
+}
+
+/// All techniques by all columns.
+pub(super) fn scores(results: &Results) -> String {
+    let columns = column::all();
+    let best: Vec<Option<f64>> = columns.iter().map(|column| best_of(results, column)).collect();
+    let rows: String = results
+        .techniques
+        .iter()
+        .map(|t| {
+            let cells: String =
+                columns.iter().zip(&best).map(|(column, best)| cell(column, t, *best)).collect();
+            format!("<tr>{}{cells}</tr>\n", row_head(t))
+        })
+        .collect();
+    format!(
+        "<table class=\"scores sortable\"><caption class=\"unseen\">Scores, time and memory of every technique</caption>\n\
+         <thead>{}</thead>\n<tbody>{rows}</tbody>\n<tfoot>{}</tfoot></table>",
+        head(&columns),
+        baseline(&columns, &results.truth.no_shadow)
+    )
+}
+
+fn head(columns: &[Column]) -> String {
+    let mut groups: Vec<(&str, usize)> = Vec::new();
+    for column in columns {
+        match groups.last_mut() {
+            Some((name, span)) if *name == column.group => *span += 1,
+            _ => groups.push((column.group, 1)),
+        }
+    }
+    let groups: String = groups
+        .iter()
+        .map(|(name, span)| {
+            format!("<th scope=\"colgroup\" colspan=\"{span}\" class=\"starts\">{}</th>", escape(name))
+        })
+        .collect();
+    let mut last = "";
+    let labels: String = columns
+        .iter()
+        .map(|column| {
+            let starts = if column.group == last { "" } else { " class=\"starts\"" };
+            last = column.group;
+            let first = if column.better == Better::Higher { "descending" } else { "ascending" };
+            format!(
+                "<th scope=\"col\"{starts}><button type=\"button\" data-first=\"{first}\" data-tip=\"{}\">{}</button></th>",
+                escape(column.meaning),
+                escape(column.label)
+            )
+        })
+        .collect();
+    format!(
+        "<tr><th rowspan=\"2\" scope=\"col\"><button type=\"button\" data-first=\"ascending\" \
+         data-tip=\"Title and specification\">Technique</button></th>{groups}</tr>\n<tr>{labels}</tr>"
+    )
+}
+
+/// A best value is worth a mark only if another is worse.
+fn best_of(results: &Results, column: &Column) -> Option<f64> {
+    let values = || results.techniques.iter().filter_map(column.value);
+    let (low, high) = (values().reduce(f64::min)?, values().reduce(f64::max)?);
+    let best = if column.better == Better::Higher { high } else { low };
+    (low < high).then_some(best)
+}
+
+fn cell(column: &Column, technique: &TechniqueResult, best: Option<f64>) -> String {
+    let starts = if starts_group(column) { " starts" } else { "" };
+    let Some(value) = (column.value)(technique) else {
+        return format!("<td class=\"none{starts}\"><span aria-label=\"none\">–</span></td>");
+    };
+    let shown = (column.format)(value);
+    // What is printed alike is equally good.
+    let is_best = best.is_some_and(|best| (column.format)(best) == shown);
+    if is_best {
+        format!("<td class=\"best{starts}\" data-value=\"{value}\"><strong>{shown}</strong></td>")
+    } else {
+        format!("<td class=\"{}\" data-value=\"{value}\">{shown}</td>", starts.trim())
+    }
+}
+
+fn starts_group(column: &Column) -> bool {
+    let columns = column::all();
+    let first = columns.iter().find(|other| other.group == column.group);
+    first.is_some_and(|first| first.label == column.label)
+}
+
+/// What drawing no shadow scores, in the columns of the hard truth.
+fn baseline(columns: &[Column], score: &Score) -> String {
+    let cells: String = columns
+        .iter()
+        .map(|column| {
+            let value = match (column.group, column.label) {
+                (column::HARD, "Match %") => Some(score.pixel_match),
+                (column::HARD, "Edges %") => score.pixel_match_near_edges,
+                (column::HARD, "RMSE") => Some(score.rmse),
+                (column::HARD, "Acne %") => score.acne,
+                (column::HARD, "Leak") => score.leak,
+                _ => None,
+            };
+            let starts = if starts_group(column) { " class=\"starts\"" } else { "" };
+            format!("<td{starts}>{}</td>", value.map_or_else(String::new, column.format))
+        })
+        .collect();
+    format!(
+        "<tr><th scope=\"row\"><span class=\"name\">No shadow drawn</span><code>all pixels lit</code></th>{cells}</tr>"
+    )
+}
+
+/// Named parts of the picture, against the light-space ideal; nothing if there are none.
+pub(super) fn regions(results: &Results) -> String {
+    let names: BTreeSet<&String> = results.techniques.iter().flat_map(|t| t.regions.keys()).collect();
+    if names.is_empty() {
+        return String::new();
+    }
+    let heads: String = names
+        .iter()
+        .map(|name| format!("<th scope=\"colgroup\" colspan=\"3\" class=\"starts\">{}</th>", escape(name)))
+        .collect();
+    let labels =
+        "<th scope=\"col\" class=\"starts\">RMSE</th><th scope=\"col\">Leak</th><th scope=\"col\">Edges</th>"
+            .repeat(names.len());
+    let rows: String = results
+        .techniques
+        .iter()
+        .map(|t| {
+            let cells: String = names.iter().map(|name| region_cells(t.regions.get(*name))).collect();
+            format!("<tr>{}{cells}</tr>\n", row_head(t))
+        })
+        .collect();
+    format!(
+        "<h3>Parts of the picture</h3><p>Against the light-space ideal, in the rectangles that the scene names.</p>\
+         <div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Parts of the picture\"><table>\
+         <thead><tr><th rowspan=\"2\" scope=\"col\">Technique</th>{heads}</tr><tr>{labels}</tr></thead>\
+         <tbody>{rows}</tbody></table></div>"
+    )
+}
+
+fn region_cells(score: Option<&Score>) -> String {
+    let shown = |value: Option<f64>, format: fn(f64) -> String| value.map_or("–".into(), format);
+    format!(
+        "<td class=\"starts\">{}</td><td>{}</td><td>{}</td>",
+        shown(score.map(|s| s.rmse), column::four_digits),
+        shown(score.and_then(|s| s.leak), significant),
+        shown(score.and_then(|s| s.pixel_match_near_edges), percent),
+    )
+}
