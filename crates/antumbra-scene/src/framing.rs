@@ -3,8 +3,8 @@
 use crate::{Aabb, Camera, Light, Scene};
 use glam::{Vec2, Vec3, Vec3Swizzles};
 
-/// From where the default camera looks: 35° to the right of +Z, about 25° above the horizon.
-const EYE: Vec3 = Vec3::new(0.52, 0.42, 0.74);
+/// From where the default camera looks: 35° to the right of +Z, about 30° above the horizon.
+const EYE: Vec3 = Vec3::new(0.52, 0.52, 0.74);
 /// Vertical field of view of the default camera, radians.
 const FOV_Y: f32 = 0.7;
 
@@ -25,7 +25,7 @@ impl Scene {
     }
 
     /// A three-quarter view from the front, right and above that sees the whole scene in a picture
-    /// at least as wide as it is high. Scenes without triangles get a view of the unit cube.
+    /// of 4:3 or wider. Scenes without triangles get a view of the unit cube.
     #[must_use]
     pub fn default_camera(&self) -> Camera {
         let unit = Aabb { min: Vec3::splat(-0.5), max: Vec3::splat(0.5) };
@@ -35,12 +35,12 @@ impl Scene {
         let up = backward.cross(right);
         let slope = (FOV_Y * 0.5).tan() * 0.92; // 8 % of margin
         let center = bounds.center();
-        // A corner at offset (x, y, z) in camera axes is inside when |x|, |y| ≤ (distance − z)·slope.
+        // A corner at offset (x, y, z) in camera axes is inside when ¾|x|, |y| ≤ (distance − z)·slope.
         let distance = bounds
             .corners()
             .map(|corner| {
                 let offset = corner - center;
-                let side = offset.dot(right).abs().max(offset.dot(up).abs());
+                let side = (offset.dot(right).abs() * 0.75).max(offset.dot(up).abs());
                 offset.dot(backward) + side / slope
             })
             .into_iter()
@@ -71,5 +71,42 @@ impl Scene {
     #[must_use]
     pub fn main_light(&self) -> Light {
         self.lights.first().copied().unwrap_or_else(|| self.default_light())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::procedural;
+
+    #[test]
+    fn the_default_camera_sees_everything() {
+        for entry in procedural::all() {
+            let mut scene = entry.scene(1);
+            scene.cameras.clear();
+            let camera = scene.main_camera();
+            let forward = (camera.target - camera.position).normalize();
+            let right = forward.cross(camera.up).normalize();
+            let up = right.cross(forward);
+            let slope = (camera.fov_y * 0.5).tan();
+            for p in scene.flatten().positions {
+                let offset = p - camera.position;
+                let depth = offset.dot(forward);
+                assert!(depth > 0.0);
+                assert!(offset.dot(up).abs() <= depth * slope);
+                assert!(offset.dot(right).abs() <= depth * slope * 4.0 / 3.0);
+            }
+        }
+    }
+
+    #[test]
+    fn the_default_sun_shines_from_behind_the_left_shoulder() {
+        let scene = Scene::default();
+        let camera = scene.main_camera();
+        let forward = camera.target - camera.position;
+        let Light::Directional { direction } = scene.main_light() else { panic!("not a sun") };
+        assert!(direction.is_normalized());
+        assert!(direction.dot(forward) > 0.0 && direction.y < 0.0);
+        assert!(direction.dot(forward.cross(Vec3::Y)) > 0.0, "it travels to the right");
     }
 }

@@ -32,7 +32,7 @@ pub fn load(path: impl AsRef<Path>) -> Result<Scene, ImportError> {
 /// Loads a glTF 2.0 file, text or binary, with the buffers and images it refers to.
 ///
 /// Taken: every triangle list, strip and fan of the default scene (the first if none is named, all
-/// root nodes if there is no scene), indexed or not, sparse or not, quantised or not; nodes with
+/// root nodes if there is no scene, all meshes if there are no nodes either), indexed or not, sparse or not, quantised or not; nodes with
 /// matrices or TRS, mirrored or not; GPU instancing; skins and morph targets in the pose at rest;
 /// base colours with their texture transforms, cut-outs (`MASK`), two-sidedness; perspective
 /// cameras; directional and spot lights. Missing normals become flat ones, as the format demands.

@@ -3,6 +3,7 @@
 use super::document::{Buffer, Document};
 use crate::import::error::{Problem, invalid};
 use serde::de::DeserializeOwned;
+use serde_json::Value;
 use std::path::Path;
 
 /// Splits a file into its JSON and, for GLB, its binary chunk.
@@ -51,13 +52,41 @@ pub(super) fn split(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), Problem> {
     }
 }
 
-/// Reads JSON; errors name the element.
+/// Reads JSON; errors name the element. Whole numbers may be written with a fraction of zero.
 pub(super) fn parse<T: DeserializeOwned>(json: &[u8]) -> Result<T, Problem> {
     let mut reader = serde_json::Deserializer::from_slice(json);
-    let value = serde_path_to_error::deserialize(&mut reader)
-        .map_err(|e| Problem::Json { element: e.path().to_string(), source: e.into_inner() })?;
-    reader.end().map_err(|source| Problem::Json { element: "end of file".into(), source })?;
-    Ok(value)
+    let problem = |e: serde_path_to_error::Error<serde_json::Error>| Problem::Json {
+        element: Some(e.path().to_string()).filter(|p| p != ".").unwrap_or("JSON".into()),
+        source: e.into_inner(),
+    };
+    match serde_path_to_error::deserialize(&mut reader) {
+        Ok(value) => {
+            reader.end().map_err(|source| Problem::Json { element: "end of file".into(), source })?;
+            Ok(value)
+        }
+        // Rare, so the costly way is the second one.
+        Err(error) => match serde_json::from_slice::<Value>(json) {
+            Ok(mut value) => {
+                make_whole(&mut value);
+                serde_path_to_error::deserialize(value).map_err(|_| problem(error))
+            }
+            Err(_) => Err(problem(error)),
+        },
+    }
+}
+
+/// Turns numbers such as 3.0 into 3.
+fn make_whole(value: &mut Value) {
+    match value {
+        Value::Number(number) => {
+            if let Some(float) = number.as_f64().filter(|f| f.fract() == 0.0 && f.abs() < 9e15) {
+                *value = (float as i64).into();
+            }
+        }
+        Value::Array(values) => values.iter_mut().for_each(make_whole),
+        Value::Object(entries) => entries.values_mut().for_each(make_whole),
+        _ => {}
+    }
 }
 
 /// Reads an extension object; `element` is the path of its owner.
@@ -127,10 +156,14 @@ pub(super) fn resource(uri: &str, element: &str, folder: Option<&Path>) -> Resul
                 Some(bytes) => Ok(bytes),
                 None => refuse("its data must be base64 (A-Z a-z 0-9 + / =)"),
             },
-            _ => refuse("data URIs must have the form data:<type>;base64,<data>"),
+            Some((false, data)) => match percent_decode(data) {
+                Some(bytes) => Ok(bytes),
+                None => refuse("after % two hexadecimal digits must follow"),
+            },
+            None => refuse("data URIs must have the form data:<type>;base64,<data>"),
         };
     }
-    let Some(path) = percent_decode(uri) else {
+    let Some(path) = percent_decode(uri).and_then(|bytes| String::from_utf8(bytes).ok()) else {
         return refuse("after % two hexadecimal digits must follow, and the result must be UTF-8");
     };
     let scheme = uri.split(['/', '?', '#']).next().is_some_and(|first| first.contains(':'));
@@ -145,7 +178,7 @@ pub(super) fn resource(uri: &str, element: &str, folder: Option<&Path>) -> Resul
     })
 }
 
-fn percent_decode(text: &str) -> Option<String> {
+fn percent_decode(text: &str) -> Option<Vec<u8>> {
     let mut bytes = Vec::with_capacity(text.len());
     let mut rest = text.bytes();
     while let Some(byte) = rest.next() {
@@ -156,7 +189,7 @@ fn percent_decode(text: &str) -> Option<String> {
             byte
         });
     }
-    String::from_utf8(bytes).ok()
+    Some(bytes)
 }
 
 /// Decodes base64, standard alphabet, padding optional; `None` if anything else is in it.
@@ -201,6 +234,6 @@ mod tests {
     fn uris_are_decoded() {
         assert_eq!(percent_decode("a%20b%C3%A4"), Some("a bä".into()));
         assert_eq!(percent_decode("a%2"), None);
-        assert_eq!(percent_decode("%FF"), None);
+        assert_eq!(percent_decode("%+1"), None);
     }
 }

@@ -44,6 +44,9 @@ pub(super) fn import(bytes: &[u8], folder: Option<&Path>, name: &str) -> Result<
     for place in 0..placer.hierarchy.shown.len() {
         placer.node(placer.hierarchy.shown[place])?;
     }
+    if asset.document.nodes.is_empty() && asset.document.scenes.is_empty() {
+        placer.library()?;
+    }
     let scene = placer.finish();
     scene.validate()?;
     Ok(scene)
@@ -91,6 +94,16 @@ impl Placer<'_> {
         for copy in copies {
             self.place(&meshes, world * copy);
         }
+        Ok(())
+    }
+
+    /// Places every mesh once: a document without nodes is a library of meshes.
+    fn library(&mut self) -> Result<(), Problem> {
+        for mesh in 0..self.asset.document.meshes.len() {
+            let added: Vec<usize> = self.mesh(mesh, None, None)?.into_iter().map(|(mesh, _)| mesh).collect();
+            self.place(&added, DMat4::IDENTITY);
+        }
+        self.scene.notes.push("the file has no nodes; every mesh is placed once, untransformed".into());
         Ok(())
     }
 

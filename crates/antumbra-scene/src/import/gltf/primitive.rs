@@ -124,17 +124,7 @@ impl Asset {
             }
             None => Vec::new(),
         };
-        for (i, (target, &weight)) in primitive.targets.iter().zip(weights).enumerate() {
-            for (attribute, values) in [("POSITION", &mut positions), ("NORMAL", &mut normals)] {
-                if let Some(&index) = target.get(attribute)
-                    && !values.is_empty()
-                {
-                    let element = format!("{element}.targets[{i}].{attribute}");
-                    let moves = self.vectors(index, &element, DIRECTION, count)?;
-                    values.iter_mut().zip(moves).for_each(|(v, m)| *v += Vec3::from_array(m) * weight);
-                }
-            }
-        }
+        self.morph(primitive, element, weights, [&mut positions, &mut normals])?;
         let set = format!("TEXCOORD_{}", coordinates.set);
         let uvs = match primitive.attributes.get(&set) {
             Some(&i) => {
@@ -155,6 +145,42 @@ impl Asset {
         Ok(Some(Vertices { positions, normals, uvs, colors, joints, triangles }))
     }
 
+    /// Adds the weighted morph targets. Targets without weight are checked but not read.
+    fn morph(
+        &self,
+        primitive: &Primitive,
+        element: &str,
+        weights: &[f32],
+        [positions, normals]: [&mut Vec<Vec3>; 2],
+    ) -> Result<(), Problem> {
+        let count = positions.len();
+        if !weights.is_empty() && weights.len() != primitive.targets.len() {
+            let allowed = format!("there must be {}, one for each target", primitive.targets.len());
+            return Err(invalid(
+                format!("{element}: weights"),
+                format!("{} numbers", weights.len()),
+                allowed,
+            ));
+        }
+        for (i, target) in primitive.targets.iter().enumerate() {
+            let weight = weights.get(i).copied().unwrap_or(0.0);
+            for (attribute, values) in [("POSITION", &mut *positions), ("NORMAL", &mut *normals)] {
+                let Some(&index) = target.get(attribute) else { continue };
+                let element = format!("{element}.targets[{i}].{attribute}");
+                let found = follow(&self.document.accessors, "accessors", index, &element)?.count;
+                if found != count {
+                    let allowed = format!("there must be {count}, one for each position");
+                    return Err(invalid(element, format!("{found} elements"), allowed));
+                }
+                if weight != 0.0 && !values.is_empty() {
+                    let moves = self.vectors(index, &element, DIRECTION, Some(count))?;
+                    values.iter_mut().zip(moves).for_each(|(v, m)| *v += Vec3::from_array(m) * weight);
+                }
+            }
+        }
+        Ok(())
+    }
+
     /// Joints and weights of each vertex, all sets together.
     fn joints(
         &self,
@@ -166,7 +192,18 @@ impl Asset {
         for set in 0.. {
             let [joints, weights] = ["JOINTS", "WEIGHTS"].map(|s| format!("{s}_{set}"));
             let indices = [&joints, &weights].map(|s| primitive.attributes.get(s.as_str()));
-            let [Some(&joint_index), Some(&weight_index)] = indices else { break };
+            let (&joint_index, &weight_index) = match indices {
+                [Some(joint), Some(weight)] => (joint, weight),
+                [None, None] => break,
+                [found, _] => {
+                    let lonely = if found.is_some() { &joints } else { &weights };
+                    return Err(invalid(
+                        name(lonely),
+                        "alone",
+                        format!("{joints} and {weights} come in pairs"),
+                    ));
+                }
+            };
             let table = self.attribute(joint_index, &name(&joints), JOINTS)?;
             counted(&table, &name(&joints), Some(positions))?;
             let values: Vec<[f32; 4]> =
