@@ -167,22 +167,37 @@ fn stepped(texel: f64) -> f64 {
     ((texel.log2() * 16.0).ceil() / 16.0).exp2()
 }
 
+/// The part of the receivers' range that casters can shade, all of it if there is none, and 1 for
+/// each end at which the casters stop before the receivers do.
+fn overlap(receivers: [f64; 2], casters: [f64; 2]) -> ([f64; 2], [f64; 2]) {
+    let both = [receivers[0].max(casters[0]), receivers[1].min(casters[1])];
+    if both[0] > both[1] {
+        return (receivers, [0.0; 2]);
+    }
+    let cut = |end: usize| if both[end] == receivers[end] { 0.0 } else { 1.0 };
+    (both, [cut(0), cut(1)])
+}
+
 fn directional(axes: Axes, fit: &Fit) -> Result<View, LightError> {
     let (caster_low, caster_high) = extent(fit.casters.corners().map(|p| axes.of(p.as_dvec3())));
     let (low, high) = extent(fit.receivers.iter().map(|p| axes.of(p.as_dvec3())));
     // Across: where both are. Where nothing casts, everything is lit without a map.
-    let (mut x0, mut x1) = (low.x.max(caster_low.x), high.x.min(caster_high.x));
-    let (mut y0, mut y1) = (low.y.max(caster_low.y), high.y.min(caster_high.y));
-    if x0 > x1 || y0 > y1 {
-        (x0, x1, y0, y1) = (low.x, high.x, low.y, high.y);
-    }
+    let (x, cut_x) = overlap([low.x, high.x], [caster_low.x, caster_high.x]);
+    let (y, cut_y) = overlap([low.y, high.y], [caster_low.y, caster_high.y]);
     let span = f64::from(f32::EPSILON) * 64.0 * (1.0 + low.abs().max(high.abs()).max_element());
-    // One texel of slack for snapping.
-    let free = 2.0 * f64::from(fit.margin_texels) + 1.0;
+    // One texel of slack for snapping; where the casters end, receivers up to a kernel further on
+    // are still in their penumbra.
+    let margin = f64::from(fit.margin_texels);
+    let usable = |texels: f64, cut: [f64; 2]| (texels - 1.0 - margin * (2.0 + cut[0] + cut[1])).max(1.0);
     let (across, down) = (f64::from(fit.size.width), f64::from(fit.size.height));
-    let texel = stepped(((x1 - x0).max(span) / (across - free)).max((y1 - y0).max(span) / (down - free)));
-    let snap = |centre: f64, texels: f64| ((centre / texel - texels / 2.0).round() + texels / 2.0) * texel;
-    let (cx, cy) = (snap(0.5 * (x0 + x1), across), snap(0.5 * (y0 + y1), down));
+    let texel = stepped(
+        ((x[1] - x[0]).max(span) / usable(across, cut_x)).max((y[1] - y[0]).max(span) / usable(down, cut_y)),
+    );
+    let snap = |ends: [f64; 2], cut: [f64; 2], texels: f64| {
+        let centre = 0.5 * ((ends[0] + ends[1]) / texel + margin * (cut[1] - cut[0]));
+        ((centre - texels / 2.0).round() + texels / 2.0) * texel
+    };
+    let (cx, cy) = (snap(x, cut_x, across), snap(y, cut_y, down));
     // In depth: the receivers, with a little room for rounding.
     let room = 1e-3 * (high.z - low.z).max(span);
     let (near, far) = (low.z - room, high.z + room);

@@ -164,6 +164,7 @@ impl ShadowMap {
         let compares = technique.bindings().contains(&Binding::Depth);
         let textures = Textures::new(device, &maps, options, depth, compares);
         let bias = options.bias.unwrap_or_else(|| technique.bias());
+        bias.check()?;
         let uniforms = Uniforms::new(device, technique, bias, options);
         let steps = pass::plan(technique, &capabilities, &maps, options.size);
         let draws = (0..options.views)
@@ -307,6 +308,13 @@ impl ShadowMap {
         self.technique.reach_texels().ceil() + 1.0
     }
 
+    /// Entry `index` of [`Technique::maps`] as allocated, for debug views: view `v` starts at layer
+    /// `v · layers`. Usages `TEXTURE_BINDING` and `COPY_SRC`. `None` if the technique keeps fewer.
+    #[must_use]
+    pub fn map_texture(&self, index: usize) -> Option<&wgpu::Texture> {
+        self.textures.maps().get(index).map(|map| &map.texture)
+    }
+
     /// Every texture and buffer that was allocated, mips included.
     #[must_use]
     pub fn memory(&self) -> Memory {
@@ -323,15 +331,25 @@ impl ShadowMap {
                     .into(),
             );
         }
+        let parts = self.technique.parts(&self.capabilities);
         for map in self.textures.maps() {
             let format = map.texture.format();
-            let way =
-                if self.capabilities.filters(format) { "the sampler" } else { "the shader (four loads)" };
-            lines.push(format!("{} in {format:?}, interpolated by {way}", map.name));
+            let way = match (parts.contains(&"lookup_nearest"), self.capabilities.filters(format)) {
+                (true, _) => "read one texel at a time",
+                (false, true) => "interpolated by the sampler",
+                (false, false) => "interpolated by the shader (four loads)",
+            };
+            lines.push(format!("{} in {format:?}, {way}", map.name));
             let together = self.capabilities.targets_per_pass(format).min(map.layers);
             if together < map.layers {
                 lines.push(format!("{} layers of {} in passes of {together}", map.layers, map.name));
             }
+        }
+        if parts.contains(&"lookup_anisotropic") {
+            lines.push(
+                "anisotropic lookups by a loop in the shader, the same on every driver, not by the sampler"
+                    .into(),
+            );
         }
         lines
     }

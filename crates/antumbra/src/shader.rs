@@ -186,7 +186,8 @@ pub(crate) fn receiver(
             "1.0",
         ),
     };
-    let _ = write!(
+    let _ =
+        write!(
         glue,
         "{}",
         include_str!("shader/visibility.wgsl.in")
@@ -194,7 +195,7 @@ pub(crate) fn receiver(
             .replace("{slopes}", slopes)
             .replace("{scale}", scale)
             .replace("{call}", &format!(
-                "{name}_visibility({arguments}uv, view, depth - bias, plane, gradient_x, gradient_y{settings})"
+                "{name}_visibility({arguments}uv, view, depth, plane, gradient_x, gradient_y{settings})"
             ))
     );
     shader.push("shadow_visibility", &glue);

@@ -118,6 +118,23 @@ pub struct Bias {
 impl Bias {
     /// No bias at all.
     pub const NONE: Self = Self { constant_texels: 0.0, slope_texels: 0.0, normal_offset_texels: 0.0 };
+
+    /// A bias that is not a number would shadow everything without a word.
+    pub(crate) fn check(&self) -> Result<(), SettingError> {
+        let fields = [
+            ("constant_texels", self.constant_texels),
+            ("slope_texels", self.slope_texels),
+            ("normal_offset_texels", self.normal_offset_texels),
+        ];
+        match fields.into_iter().find(|(_, value)| !value.is_finite()) {
+            None => Ok(()),
+            Some((name, value)) => Err(SettingError::OutOfRange {
+                parameter: format!("bias.{name}"),
+                value: value.to_string(),
+                allowed: "finite".into(),
+            }),
+        }
+    }
 }
 
 /// The depth that a technique's visibility function receives.

@@ -141,3 +141,20 @@ fn the_visible_hull_is_the_box_cut_by_the_frustum() {
     let lens = rh::proj::directx::perspective(0.2, 1.0, 0.1, 100.0);
     assert!(visible_hull(lens * away, &BOX, 0.0..=f32::INFINITY).is_empty());
 }
+
+#[test]
+fn penumbrae_beyond_the_casters_are_inside_too() {
+    // Casters in the middle of a wide floor: a kernel carries their shadow past their bounds.
+    let casters = Bounds { min: Vec3::new(-1.0, 0.0, -1.0), max: Vec3::new(1.0, 1.0, 1.0) };
+    let fit = Fit { casters, margin_texels: 17.0, ..fit(BOX.corners().collect()) };
+    let view = sun(0.0, -1.0, 0.0).view(&fit).unwrap();
+    let reach = 16.0 * view.texel_world;
+    for side in [-1.0, 1.0] {
+        let p = project(&view, Vec3::new(side * (1.0 + reach), 0.0, 0.0));
+        // The kernel around it must still fit.
+        assert!(p.x.abs() <= 1.0 - 2.0 * 16.0 / 512.0, "{p}");
+    }
+    let alone = Fit { receivers: casters.corners().collect(), ..fit };
+    let tight = sun(0.0, -1.0, 0.0).view(&alone).unwrap();
+    assert!(tight.texel_world < view.texel_world, "receivers that end with the casters need no more room");
+}

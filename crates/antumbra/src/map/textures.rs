@@ -62,6 +62,7 @@ impl Textures {
             let levels = pass::levels(map, options.size);
             let layers = map.layers * options.views;
             let blurs = map.passes.iter().any(|p| matches!(p, Pass::Blur(_)));
+            let usage = usage | TextureUsages::COPY_SRC;
             let kept = texture(device, map.name, options.size, layers, levels, map.format, usage);
             Kept {
                 name: map.name,

@@ -94,7 +94,16 @@ impl Csm {
     /// range is not fitted this tightly, has no such factor.
     #[must_use]
     pub fn span(&self) -> f32 {
-        (1.0 - 2.0 * self.ramp()).max(0.5)
+        (1.0 - self.ramp() - self.ramp().max(self.lift_offset())).max(0.5)
+    }
+
+    /// What is taken off the receiver's depth.
+    fn lift_offset(&self) -> f32 {
+        match self.lift {
+            Lift::Offset | Lift::Both if self.offset > 0.0 => self.offset,
+            Lift::Offset | Lift::Both => self.ramp(),
+            Lift::Scale | Lift::None => 0.0,
+        }
     }
 }
 
@@ -142,14 +151,8 @@ impl Technique for Csm {
         include_str!("csm.wgsl")
     }
     fn uniforms(&self) -> Vec<Uniform> {
-        let offset = if self.offset > 0.0 { self.offset } else { self.ramp() };
-        let (offset, scale) = match self.lift {
-            Lift::Offset => (offset, 1.0),
-            Lift::Scale => (0.0, 2.0),
-            Lift::Both => (offset, 2.0),
-            Lift::None => (0.0, 1.0),
-        };
-        vec![("span", self.span()), ("offset", offset), ("scale", scale)]
+        let scale = if matches!(self.lift, Lift::Scale | Lift::Both) { 2.0 } else { 1.0 };
+        vec![("span", self.span()), ("offset", self.lift_offset()), ("scale", scale)]
     }
     fn constants(&self) -> Vec<Constant> {
         let mut weights: Vec<f32> = self
@@ -169,10 +172,11 @@ impl Technique for Csm {
     }
     /// Overshoot of the series beyond its ramps, and half a step of 8 bits in every term.
     fn ripple(&self) -> f32 {
-        let clear = f64::from(self.ramp())..=1.0 - f64::from(self.ramp());
+        // With very few terms the ramps meet, and the farthest lit receivers are on the second one.
+        let start = f64::from(self.ramp());
+        let end = (1.0 - start).max(f64::from(self.span() + self.lift_offset()));
         let ringing = (0..=1024)
-            .map(|i| f64::from(i) / 1024.0)
-            .filter(|t| clear.contains(t))
+            .map(|i| start + (end - start) * f64::from(i) / 1024.0)
             .map(|t| (reference::series(self, 0.0, t) - 1.0).abs())
             .fold(0.0, f64::max);
         let quantisation: f64 = (1..=self.terms)
