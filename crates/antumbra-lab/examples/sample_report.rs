@@ -120,8 +120,8 @@ const SAMPLES: [Sample; 7] = [
         family: Family::Basis,
         paper: "Donnelly and Lauritzen 2006",
         visibility: |x, y| {
-            let bleeding = 0.35 * (1.0 - ((x - 330.0) / 160.0).abs()).max(0.0);
-            smooth(x, y, 9.0).max(bleeding * smooth(x, y, 60.0))
+            let bleeding = 0.4 * (1.0 - ((x - 190.0) / 110.0).abs()).max(0.0);
+            smooth(x, y, 9.0).max(bleeding) * 0.98 + 0.02
         },
         passes: &[("cast", 0.21), ("convert", 0.05), ("blur", 0.14), ("lookup", 0.13)],
         textures: &[
@@ -164,7 +164,7 @@ const SAMPLES: [Sample; 7] = [
         title: "Exponential variance shadow map",
         family: Family::Basis,
         paper: "Lauritzen and McCool 2008",
-        visibility: |x, y| smooth(x, y, 9.4),
+        visibility: |x, y| smooth(x + 0.3, y, 9.6),
         passes: &[("cast", 0.21), ("convert", 0.07), ("blur", 0.27), ("lookup", 0.15)],
         textures: &[
             ("depth", "depth32float", 1, 1, mega(4), Lifetime::Transient),

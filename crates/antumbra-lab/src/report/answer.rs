@@ -1,6 +1,6 @@
 //! The answer in words, computed from the numbers.
 
-use super::text::{escape, list, milliseconds, percent, significant};
+use super::text::{self, escape, list, milliseconds, percent, significant};
 use crate::results::{Results, TechniqueResult};
 
 /// The technique with the smallest cost; the first of equals.
@@ -72,7 +72,8 @@ fn fastest(results: &Results) -> Option<String> {
     let fastest = best(results, |t| t.time.frame.median_ms)?;
     let overlaps =
         |t: &&TechniqueResult| !std::ptr::eq(*t, fastest) && t.time.frame.min_ms <= fastest.time.frame.max_ms;
-    let rivals: Vec<String> = results.techniques.iter().filter(overlaps).map(|t| escape(&t.title)).collect();
+    let label = |t: &TechniqueResult| escape(&text::label(results, t));
+    let rivals: Vec<String> = results.techniques.iter().filter(overlaps).map(label).collect();
     let caution = match rivals.len() {
         0 => String::new(),
         1..=3 => format!(", though its range overlaps that of {}", list(&rivals)),
@@ -84,7 +85,8 @@ fn fastest(results: &Results) -> Option<String> {
 fn baseline(results: &Results) -> String {
     let none = &results.truth.no_shadow;
     let beaten = |t: &&TechniqueResult| t.scores.hard.rmse >= none.rmse;
-    let losers: Vec<String> = results.techniques.iter().filter(beaten).map(|t| escape(&t.title)).collect();
+    let label = |t: &TechniqueResult| escape(&text::label(results, t));
+    let losers: Vec<String> = results.techniques.iter().filter(beaten).map(label).collect();
     let verdict = match losers.len() {
         0 if results.techniques.is_empty() => String::new(),
         0 => " Every technique has a smaller error than that.".into(),
@@ -92,7 +94,7 @@ fn baseline(results: &Results) -> String {
         _ => format!(" {} are no better than that.", list(&losers)),
     };
     format!(
-        "For scale: drawing no shadow at all already matches {} of the shadowable pixels (RMSE {}).{verdict}",
+        "For scale: drawing no shadow at all already matches {} of the shadowable pixels of the hard truth (RMSE {}).{verdict}",
         percent(none.pixel_match),
         significant(none.rmse)
     )

@@ -7,7 +7,7 @@
     return [(event.clientX - box.left) * viewer.ratio(), (event.clientY - box.top) * viewer.ratio()];
   };
 
-  canvas.addEventListener("wheel", (event) => {
+  byId("stage").addEventListener("wheel", (event) => {
     // At the fitted size the page keeps scrolling down.
     if (view.zoom === 1 && event.deltaY > 0) return;
     event.preventDefault();

@@ -1,7 +1,7 @@
 //! The prose-like parts of the page: facts, truth, adapter, choices, definitions.
 
 use super::table::family;
-use super::text::{bytes, count, escape, list, percent, seconds, significant};
+use super::text::{bytes, count, escape, label, list, percent, seconds, significant};
 use crate::results::{LightFacts, Results, TechniqueResult};
 
 fn vector([x, y, z]: [f32; 3]) -> String {
@@ -70,7 +70,7 @@ pub(super) fn truth(results: &Results) -> String {
         (
             "Camera",
             format!(
-                "at {} towards {}, up {}, {:.1}° high",
+                "at {} towards {}, up {}, vertical field of view {:.1}°",
                 vector(camera.position),
                 vector(camera.target),
                 vector(camera.up),
@@ -144,7 +144,7 @@ pub(super) fn explain(results: &Results) -> String {
         let choices = if choices.is_empty() { String::new() } else { format!("<ul>{choices}</ul>") };
         format!(
             "<article><h3>{}</h3><p class=\"quiet\">{} family · {}</p><ul class=\"settings\">{settings}</ul>{choices}</article>\n",
-            escape(&t.title),
+            escape(&label(results, t)),
             family(t.family).0,
             escape(&t.paper)
         )

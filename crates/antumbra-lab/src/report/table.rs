@@ -155,7 +155,7 @@ pub(super) fn regions(results: &Results) -> String {
         .collect();
     format!(
         "<h3>Parts of the picture</h3><p>Against the light-space ideal, in the rectangles that the scene names.</p>\
-         <div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Parts of the picture\"><table>\
+         <div class=\"scroll regions\" tabindex=\"0\" role=\"region\" aria-label=\"Parts of the picture\"><table>\
          <thead><tr><th rowspan=\"2\" scope=\"col\">Technique</th>{heads}</tr><tr>{labels}</tr></thead>\
          <tbody>{rows}</tbody></table></div>"
     )

@@ -1,4 +1,6 @@
-//! Text that goes into a page: escaping, numbers, templates.
+//! Text that goes into a page: escaping, names, numbers, templates.
+
+use crate::results::{Results, TechniqueResult};
 
 /// Safe as HTML text and in a quoted attribute.
 pub(super) fn escape(text: &str) -> String {
@@ -28,6 +30,12 @@ pub(super) fn fill(template: &str, parts: &[(&str, String)]) -> String {
         rest = after;
     }
     page + rest
+}
+
+/// A technique's title, with its specification where another has the same title.
+pub(super) fn label(results: &Results, technique: &TechniqueResult) -> String {
+    let same = results.techniques.iter().filter(|t| t.title == technique.title).count();
+    if same > 1 { format!("{} ({})", technique.title, technique.spec) } else { technique.title.clone() }
 }
 
 /// A share as a percentage: "98.42 %".

@@ -1,7 +1,7 @@
 //! What the slider and the grid of heat maps show.
 
 use super::table::family;
-use super::text::escape;
+use super::text::{escape, label};
 use super::{ReportError, column};
 use crate::plane::diverging;
 use crate::results::{Family, Results, TechniqueResult};
@@ -36,7 +36,7 @@ fn truths(results: &Results) -> [View<'_>; 3] {
 fn views<'a>(results: &'a Results, technique: &'a TechniqueResult) -> [View<'a>; 4] {
     let (images, truth) = (&technique.images, &results.truth.images);
     let view = |what: &str, file: &'a str| View {
-        label: format!("{} · {what}", technique.title),
+        label: format!("{} · {what}", label(results, technique)),
         file,
         difference: None,
     };
@@ -117,15 +117,15 @@ fn heat_map(results: &Results, technique: &TechniqueResult) -> String {
     let figures = |truth: &str, file: &str, numbers: String| {
         format!(
             "<button type=\"button\" class=\"map\" data-against=\"{truth}\" data-image=\"{file}\" data-visibility=\"{visibility}\">\
-             <img alt=\"Signed error of {title}\" data-file=\"{file}\" width=\"{w}\" height=\"{h}\" loading=\"lazy\">\
+             <img alt=\"Signed error of {title}\" data-file=\"{file}\" width=\"{w}\" height=\"{h}\">\
              <span class=\"numbers\">{numbers}</span></button>",
             file = escape(file),
             visibility = escape(&technique.images.visibility),
-            title = escape(&technique.title),
+            title = escape(&label(results, technique)),
         )
     };
-    let number = |label: &str, value: Option<f64>| {
-        format!("<span>{label} <b>{}</b></span>", value.map_or("–".into(), column::four_digits))
+    let number = |metric: &str, value: Option<f64>| {
+        format!("<span>{metric} <b>{}</b></span>", value.map_or("–".into(), column::four_digits))
     };
     let (soft, hard) = (&technique.scores.light_space, &technique.scores.hard);
     let soft =

@@ -1,0 +1,308 @@
+//! The report as a reader finds it: complete, self-contained, safe, and never half written.
+#![allow(clippy::unwrap_used, reason = "helpers of tests fail like tests")]
+
+use antumbra_lab::files::{FileError, write_atomically};
+use antumbra_lab::metrics::score;
+use antumbra_lab::plane::{Plane, Rgba8Image};
+use antumbra_lab::report::{self, ReportError};
+use antumbra_lab::results::{
+    AdapterFacts, BoundsFacts, CameraFacts, Family, Lifetime, LightFacts, MemoryItem, MemoryResult, PassTime,
+    Program, Results, ResultsError, SCHEMA, SceneFacts, Scores, Spread, TechniqueImages, TechniqueResult,
+    TimeMethod, TimeResult, TruthFacts, TruthImages,
+};
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// A folder of its own for each test, removed at its end.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(test: &str) -> Self {
+        let path = std::env::temp_dir().join(format!("antumbra-report-test-{test}-{}", std::process::id()));
+        fs::create_dir_all(&path).unwrap();
+        Self(path)
+    }
+
+    fn names(&self) -> Vec<String> {
+        let entries = fs::read_dir(&self.0).unwrap();
+        entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+fn technique(spec: &str, title: &str, family: Family, visibility: f32) -> TechniqueResult {
+    let truth = Plane::from_fn(12, 12, |x, _| f32::from(x > 5));
+    let test = Plane::from_fn(12, 12, |x, _| if x > 5 { visibility } else { 0.0 });
+    let score = score(&test, &truth, &[true; 144]).unwrap();
+    let stem = report::file_stem(spec);
+    let image = |what: &str| format!("{stem}-{what}.png");
+    TechniqueResult {
+        name: spec.split('.').next().unwrap().into(),
+        spec: spec.into(),
+        title: title.into(),
+        family,
+        paper: "Somebody & others".into(),
+        settings: BTreeMap::from([("c".into(), 80.into()), ("filter".into(), "gauss".into())]),
+        scores: Scores { hard: score, light_space: score, screen_space: score },
+        regions: BTreeMap::from([("contact".into(), score)]),
+        time: TimeResult {
+            passes: vec![PassTime {
+                name: "lookup".into(),
+                median_ms: 0.5,
+                min_ms: 0.4,
+                max_ms: 0.7,
+                cpu_ms: None,
+                method: TimeMethod::Wall,
+            }],
+            frame: Spread { median_ms: 1.0, min_ms: 0.9, max_ms: 1.4 },
+            rounds: 16,
+            lookup_ratio_to_hard: None,
+            frame_ratio_to_hard: Some(1.25),
+        },
+        memory: MemoryResult {
+            items: vec![MemoryItem {
+                name: "depth".into(),
+                format: "depth32float".into(),
+                width: 512,
+                height: 512,
+                layers: 1,
+                mips: 1,
+                bytes: 1 << 20,
+                kept: Lifetime::Kept,
+            }],
+            kept_bytes: 1 << 20,
+            transient_bytes: 0,
+        },
+        explain: vec!["chose depth32float".into()],
+        images: TechniqueImages {
+            picture: image("picture"),
+            visibility: image("visibility"),
+            error_hard: image("error-hard"),
+            error_light_space: image("error-light-space"),
+        },
+    }
+}
+
+fn results() -> Results {
+    let techniques = vec![
+        technique("hard", "Standard shadow map", Family::Comparison, 0.6),
+        technique("esm.c=80,kernel=5", "Exponential shadow map", Family::Basis, 0.9),
+    ];
+    Results {
+        schema: SCHEMA.into(),
+        program: Program { name: "antumbra".into(), version: "0.1.0".into() },
+        command: vec!["antumbra".into(), "it's here.glb".into()],
+        scene: SceneFacts {
+            name: "fence".into(),
+            triangles: 1200,
+            light: LightFacts::Directional { direction: [0.0, -1.0, 0.0] },
+            camera: CameraFacts {
+                position: [0.0, 1.5, 4.0],
+                target: [0.0; 3],
+                up: [0.0, 1.0, 0.0],
+                fov_y_deg: 45.0,
+            },
+            bounds: BoundsFacts { min: [-1.0; 3], max: [1.0; 3] },
+        },
+        resolution: [12, 12],
+        map_size: 512,
+        kernel_texels: 5,
+        adapter: AdapterFacts {
+            name: "a device".into(),
+            driver: "1.2".into(),
+            backend: "Vulkan".into(),
+            device_type: "Cpu".into(),
+            features: vec![],
+        },
+        truth: TruthFacts {
+            seconds_build: 0.01,
+            seconds_hard: 0.1,
+            seconds_light_space: 1.0,
+            seconds_screen_space: 2.0,
+            coverage_agreement: 0.999,
+            coverage_explained: BTreeMap::new(),
+            shadowable_pixels: 144,
+            no_shadow: techniques[0].scores.hard,
+            images: TruthImages {
+                hard: "truth-hard.png".into(),
+                light_space: "truth-light-space.png".into(),
+                screen_space: "truth-screen-space.png".into(),
+            },
+        },
+        techniques,
+        peak_memory_bytes: None,
+        seconds_total: 4.0,
+        files: vec![],
+    }
+}
+
+fn images(results: &Results) -> BTreeMap<String, Vec<u8>> {
+    let png = Rgba8Image::new(1, 1, vec![1, 2, 3, 255]).unwrap().to_png().unwrap();
+    let truth = &results.truth.images;
+    let mut names = vec![&truth.hard, &truth.light_space, &truth.screen_space];
+    for t in &results.techniques {
+        let images = &t.images;
+        names.extend([&images.picture, &images.visibility, &images.error_hard, &images.error_light_space]);
+    }
+    names.into_iter().map(|name| (name.clone(), png.clone())).collect()
+}
+
+fn write(results: &Results, out: &Path) -> Result<PathBuf, ReportError> {
+    report::write(results, &images(results), out)
+}
+
+#[test]
+fn report_is_complete_and_needs_no_network() {
+    let folder = Folder::new("complete");
+    let out = write(&results(), &folder.0.join("report")).unwrap();
+    let page = fs::read_to_string(out.join("index.html")).unwrap();
+    assert!(!page.contains("http:") && !page.contains("https:"), "the page refers to the network");
+    assert!(!page.contains("{{"), "a part of the template was not filled");
+    for text in [
+        "Exponential shadow map",
+        "esm.c=80,kernel=5",
+        "software rasteriser",
+        r"&#39;it&#39;\&#39;&#39;s here.glb&#39;",
+    ] {
+        assert!(page.contains(text), "{text} is missing");
+    }
+    let read = Results::read(&out.join("results.json")).unwrap();
+    assert_eq!(Results { files: vec![], ..read.clone() }, results());
+    assert!(read.files.iter().all(|name| out.join(name).is_file()));
+    assert_eq!(read.files.len(), 13);
+    assert_eq!(folder.names(), ["report"]);
+}
+
+#[test]
+fn words_follow_the_numbers() {
+    let folder = Folder::new("words");
+    let page = |results: &Results| {
+        let out = write(results, &folder.0.join("report")).unwrap();
+        fs::read_to_string(out.join("index.html")).unwrap()
+    };
+    let best = "which every filtered map approximates, is <strong>Exponential shadow map";
+    assert!(page(&results()).contains(best));
+    let mut other = results();
+    other.techniques[1].scores.light_space.rmse = 0.9;
+    assert!(!page(&other).contains(best));
+    let nothing = Results { techniques: vec![], ..results() };
+    assert!(page(&nothing).contains("No technique was compared."));
+}
+
+#[test]
+fn hostile_strings_stay_text() {
+    let mut hostile = results();
+    let attack = "</script><script>alert(1)</script>\"'&{{script}}";
+    hostile.scene.name = attack.into();
+    hostile.adapter.driver = attack.into();
+    hostile.techniques[0].title = attack.into();
+    hostile.techniques[0].spec = attack.into();
+    hostile.techniques[0].explain = vec![attack.into()];
+    hostile.techniques[0].settings.insert(attack.into(), attack.into());
+    hostile.techniques[0].regions = BTreeMap::from([(attack.into(), hostile.techniques[0].scores.hard)]);
+    hostile.techniques[0].memory.items[0].format = attack.into();
+    hostile.techniques[0].time.passes[0].name = attack.into();
+    hostile.truth.coverage_explained.insert(attack.into(), 3);
+    hostile.command.push(attack.into());
+    let folder = Folder::new("hostile");
+    let out = write(&hostile, &folder.0.join("report")).unwrap();
+    let page = fs::read_to_string(out.join("index.html")).unwrap();
+    assert!(!page.contains("alert(1)</script>"));
+    assert_eq!(page.matches("<script").count(), 2, "the page's own scripts and no other");
+}
+
+#[test]
+fn csv_has_one_row_per_technique_and_quotes_commas() {
+    let csv = results().csv();
+    let lines: Vec<&str> = csv.lines().collect();
+    assert_eq!(lines.len(), 3);
+    let columns = lines[0].split(',').count();
+    assert_eq!(lines[1].split(',').count(), columns);
+    assert!(lines[2].starts_with("\"esm.c=80,kernel=5\",esm,Exponential shadow map,basis,"));
+    assert_eq!(lines[2].split(',').count(), columns + 1, "one comma is quoted");
+}
+
+#[test]
+fn numbers_that_are_not_finite_are_refused() {
+    let folder = Folder::new("finite");
+    let mut broken = results();
+    broken.techniques[0].scores.hard.rmse = f64::NAN;
+    let error = write(&broken, &folder.0.join("report")).unwrap_err();
+    assert!(matches!(error, ReportError::Results(ResultsError::NotFinite(_))), "{error}");
+    assert!(folder.names().is_empty());
+}
+
+#[test]
+fn missing_images_and_bad_names_are_refused_before_writing() {
+    let folder = Folder::new("names");
+    let mut some = images(&results());
+    some.remove("hard-picture.png");
+    let error = report::write(&results(), &some, &folder.0.join("report")).unwrap_err();
+    assert!(matches!(&error, ReportError::MissingImage(name) if name == "hard-picture.png"), "{error}");
+    for name in ["../escape.png", "a/b.png", "", ".hidden", "Index.html"] {
+        let mut images = images(&results());
+        images.insert(name.into(), vec![]);
+        let error = report::write(&results(), &images, &folder.0.join("report")).unwrap_err();
+        assert!(matches!(error, ReportError::Name(_)), "{name}: {error}");
+    }
+    assert!(folder.names().is_empty());
+    assert_eq!(report::file_stem("esm.c=80,kernel=5"), "esm.c-80-kernel-5");
+}
+
+#[test]
+fn an_earlier_report_is_replaced() {
+    let folder = Folder::new("replace");
+    let out = folder.0.join("report");
+    let mut images = images(&results());
+    images.insert("esm.exr".into(), vec![1]);
+    report::write(&results(), &images, &out).unwrap();
+    assert!(out.join("esm.exr").is_file());
+    write(&results(), &out).unwrap();
+    assert!(!out.join("esm.exr").exists(), "a file of the earlier report stayed");
+    assert_eq!(folder.names(), ["report"]);
+}
+
+#[test]
+fn folders_of_others_are_refused_and_left_alone() {
+    let folder = Folder::new("foreign");
+    let refused = |out: &Path| match write(&results(), out).unwrap_err() {
+        ReportError::File(FileError::NotOurs { why, .. }) => why,
+        other => panic!("{other}"),
+    };
+    let foreign = folder.0.join("foreign");
+    fs::create_dir(&foreign).unwrap();
+    fs::write(foreign.join("results.json"), "{\"schema\":\"theirs/1\"}").unwrap();
+    assert!(refused(&foreign).contains("no results.json of this program"));
+    let added = folder.0.join("added");
+    write(&results(), &added).unwrap();
+    fs::write(added.join("notes.txt"), "mine").unwrap();
+    assert!(refused(&added).contains("notes.txt"));
+    assert_eq!(fs::read_to_string(added.join("notes.txt")).unwrap(), "mine");
+    let file = folder.0.join("file");
+    fs::write(&file, "mine").unwrap();
+    assert!(refused(&file).contains("is a file"));
+    let empty = folder.0.join("empty");
+    fs::create_dir(&empty).unwrap();
+    write(&results(), &empty).unwrap();
+    assert_eq!(folder.names().len(), 4);
+}
+
+#[test]
+fn errors_name_the_file_and_the_reason_and_leave_nothing() {
+    let folder = Folder::new("errors");
+    fs::create_dir(folder.0.join("taken")).unwrap();
+    let error = write_atomically(&folder.0.join("taken"), b"x").unwrap_err();
+    assert!(error.to_string().contains("taken"), "{error}");
+    assert_eq!(folder.names(), ["taken"]);
+    let error = Results::read(&folder.0.join("nowhere.json")).unwrap_err();
+    assert!(error.to_string().ends_with("nowhere.json: no such file or folder"), "{error}");
+    fs::write(folder.0.join("old.json"), "{\"schema\":\"antumbra-results/0\"}").unwrap();
+    let error = Results::read(&folder.0.join("old.json")).unwrap_err();
+    assert!(matches!(error, ResultsError::Schema { .. }), "{error}");
+}
