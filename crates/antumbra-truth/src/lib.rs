@@ -42,6 +42,12 @@
 //! Triangles are tested in f64 with edge functions that agree on shared edges to the last bit, so no
 //! ray slips between two triangles, and neither side of a triangle is special. The tree's boxes are
 //! conservative. Results do not depend on the number of threads.
+//!
+//! # Cost
+//!
+//! For 364,000 triangles and 1024 × 768 pixels on two cores: 0.3 s for the tree, 0.3 s for the hard
+//! truth, 4 s for 4 × 4 samples per pixel, 20 s for the light-space ideal of 5 to 9 taps. The example
+//! `time_truth` measures it.
 
 mod camera;
 mod coverage;

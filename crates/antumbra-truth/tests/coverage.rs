@@ -137,6 +137,30 @@ fn cut_out_points_let_rays_pass() {
 }
 
 #[test]
+fn cut_out_points_let_light_pass() {
+    let mut geometry = masked();
+    let square = geometry.positions.clone();
+    geometry.positions = square.iter().map(|&p| 4.0 * p - Vec3::Y).chain(square.iter().copied()).collect();
+    geometry.uvs = geometry.positions.iter().map(|p| Vec2::new(p.x + 1.0, p.z + 1.0) * 0.5).collect();
+    geometry.colors = vec![glam::Vec4::ONE; 12];
+    geometry.normals = vec![Vec3::Y; 12];
+    geometry.indices = (0..12).collect();
+    geometry.materials.push(Material::default());
+    geometry.groups = vec![(1, 0..2), (0, 2..4)];
+    let tracer = Tracer::new(&geometry).unwrap();
+    let rays = picture(DVec3::new(0.3, -0.5, 5.0), DVec3::new(0.0, -1.0, 0.0), [120, 90]);
+    let truth = tracer.hard(&rays, &common::sun(DVec3::Y));
+    let mut seen = [0, 0];
+    for (hit, value) in tracer.primary(&rays).iter().zip(&truth.values).filter(|(hit, _)| hit.triangle < 2) {
+        let place = hit.position;
+        let shadowed = place.z.abs() < 1.0 && place.x > -1.0 && place.x < 0.0;
+        assert!(place.x.abs() < 1e-6 || (*value < 0.5) == shadowed, "{place}");
+        seen[usize::from(shadowed)] += 1;
+    }
+    assert!(seen[0] > 500 && seen[1] > 50, "{seen:?}");
+}
+
+#[test]
 fn borders_of_cut_outs_explain() {
     let geometry = masked();
     let tracer = Tracer::new(&geometry).unwrap();
