@@ -4,7 +4,7 @@ use crate::{AlphaMode, Geometry, Image};
 use glam::Vec2;
 
 impl Image {
-    /// Alpha in [0,1] at texture coordinates `uv` on the base level (mip 0): the four nearest texels,
+    /// Alpha from 0 to 1 at texture coordinates `uv` on the base level (mip 0): the four nearest texels,
     /// weighted bilinearly, as a GPU's linear sampler reads them with this image's addressing.
     ///
     /// An image whose `rgba` is shorter than its size says reads as opaque there.
@@ -49,7 +49,7 @@ impl Geometry {
 
     /// Alpha in the point `(1−u−v)·a + u·b + v·c` of triangle `t` with corners a, b, c: base colour
     /// alpha × vertex alpha × image alpha, the image sampled by [`Image::alpha_linear`]. It is what
-    /// the file says, whatever the material's [`AlphaMode`]; usually within [0,1].
+    /// the file says, whatever the material's [`AlphaMode`]; usually from 0 to 1.
     ///
     /// `t` must be below [`Geometry::triangle_count`].
     #[must_use]

@@ -186,3 +186,80 @@ fn append(out: &mut Geometry, mesh: &Mesh, instance: &Instance) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::{Mat4, Quat};
+
+    /// A triangle facing +z.
+    fn mesh(material: usize) -> Mesh {
+        Mesh {
+            positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],
+            normals: vec![Vec3::Z; 3],
+            uvs: vec![Vec2::ZERO; 3],
+            colors: vec![Vec4::ONE; 3],
+            indices: vec![0, 1, 2],
+            material,
+            ..Mesh::default()
+        }
+    }
+
+    fn scene(transforms: &[Mat4]) -> Scene {
+        Scene {
+            meshes: vec![mesh(0)],
+            instances: transforms.iter().map(|&m| Instance { mesh: 0, world_from_mesh: m }).collect(),
+            materials: vec![Material::default()],
+            ..Scene::default()
+        }
+    }
+
+    #[test]
+    fn geometric_normals_agree_with_shading_normals() {
+        let turn = Mat4::from_quat(Quat::from_rotation_x(0.7) * Quat::from_rotation_y(2.0));
+        let scale = |x, y, z| turn * Mat4::from_scale(Vec3::new(x, y, z));
+        let transforms =
+            [scale(1.0, 2.0, 0.1), scale(-1.0, 2.0, 3.0), scale(1.0, -3.0, 1.0), scale(-1.0, -1.0, -5.0)];
+        let geometry = scene(&transforms).flatten();
+        for (t, transform) in transforms.iter().enumerate() {
+            let [a, b, c] = geometry.triangle(t);
+            let geometric = (b - a).cross(c - a).normalize();
+            let normal = geometry.normals[geometry.corners(t)[0]];
+            assert!(geometric.dot(normal) > 0.999, "instance {t}");
+            // The side that the mesh meant: where its +z goes.
+            assert!(geometric.dot(transform.transform_vector3(Vec3::Z)) > 0.0, "instance {t}");
+        }
+    }
+
+    #[test]
+    fn flattened_instances_keep_a_normal() {
+        let geometry =
+            scene(&[Mat4::from_scale(Vec3::new(2.0, 2.0, 0.0)), Mat4::from_scale(Vec3::ZERO)]).flatten();
+        assert_eq!(geometry.normals[0], Vec3::Z);
+        assert!(geometry.normals.iter().all(|n| n.is_normalized()));
+        assert_eq!((geometry.triangle_count(), geometry.zero_area_count()), (2, 1));
+    }
+
+    #[test]
+    fn opaque_groups_come_first() {
+        let mut scene = scene(&[Mat4::IDENTITY]);
+        let cut = Material { alpha: AlphaMode::Mask { cutoff: 0.5 }, ..Material::default() };
+        scene.materials = vec![cut.clone(), Material::default(), cut, Material::default()];
+        scene.meshes = [3, 0, 1, 0].map(mesh).to_vec();
+        scene.instances = (0..4).map(|mesh| Instance { mesh, world_from_mesh: Mat4::IDENTITY }).collect();
+        let geometry = scene.flatten();
+        assert_eq!(geometry.groups, [(1, 0..1), (3, 1..2), (0, 2..4)]);
+        assert_eq!([0, 1, 2, 3].map(|t| geometry.material_of(t)), [1, 3, 0, 0].map(Some));
+    }
+
+    #[test]
+    fn bounds_ignore_unused_vertices() {
+        let mut scene = scene(&[Mat4::from_translation(Vec3::ONE)]);
+        scene.meshes[0].positions[2] = Vec3::splat(50.0);
+        scene.meshes[0].indices = vec![0, 1, 1];
+        let bounds = scene.flatten().bounds();
+        assert_eq!(bounds, Some(Aabb { min: Vec3::ONE, max: Vec3::new(2.0, 1.0, 1.0) }));
+        assert_eq!(bounds, scene.bounds());
+        assert_eq!(Geometry::default().bounds(), None);
+    }
+}

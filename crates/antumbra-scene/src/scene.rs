@@ -109,7 +109,7 @@ pub struct Image {
     pub height: u32,
     /// `4 · width · height` bytes: sRGB colour, straight alpha.
     pub rgba: Vec<u8>,
-    /// Addressing outside [0,1]: true repeats, false clamps to the edge, in x and y.
+    /// Addressing outside 0 to 1: true repeats, false clamps to the edge, in x and y.
     pub repeat: [bool; 2],
 }
 

@@ -130,7 +130,7 @@ pub enum SceneError {
     /// A light or camera has a number that no view can be made of.
     #[error("{what}: {problem}")]
     BadView {
-        /// "lights[i]" or "cameras[i]".
+        /// `lights[i]` or `cameras[i]`.
         what: String,
         /// What is wrong with it.
         problem: &'static str,
@@ -299,5 +299,58 @@ fn validate_mesh(index: usize, mesh: &Mesh) -> Result<(), SceneError> {
             vertices: positions,
         }),
         None => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::procedural;
+    use glam::Mat4;
+
+    fn message(change: impl FnOnce(&mut Scene)) -> String {
+        let mut scene = procedural::by_name("contact").map(|p| p.scene(1)).unwrap_or_default();
+        assert_eq!(scene.validate(), Ok(()));
+        change(&mut scene);
+        scene.validate().unwrap_err().to_string()
+    }
+
+    #[test]
+    fn messages_name_the_element_and_its_value() {
+        assert_eq!(
+            message(|s| s.meshes[1].positions[5].y = f32::INFINITY),
+            "mesh 1 'box': position of vertex 5 is (0.7, inf, -0.4); it must be finite"
+        );
+        assert_eq!(
+            message(|s| s.meshes[0].indices[4] = 4),
+            "mesh 0 'ground': indices[4] is 4; it must be below 4, the number of vertices"
+        );
+        assert_eq!(
+            message(|s| s.instances.clear()),
+            "scene 'contact' has no triangles: 3 meshes in 0 instances; at least one is needed"
+        );
+        assert_eq!(message(|s| s.instances[2].mesh = 8), "instance 2: mesh 8 does not exist; there are 3");
+        assert_eq!(
+            message(|s| s.meshes[0].material = 3),
+            "mesh 0 'ground': material 3 does not exist; there are 3"
+        );
+        assert_eq!(
+            message(|s| s.materials[1].base_color_image = Some(0)),
+            "material 'clay': image 0 does not exist; there are 0"
+        );
+        assert!(message(|s| s.meshes[0].uvs.truncate(3)).contains("has 3 uvs for 4 positions"));
+        assert!(message(|s| s.meshes[0].indices.truncate(5)).contains("has 5 indices"));
+        assert!(
+            message(|s| s.instances[0].world_from_mesh = Mat4::from_scale(Vec3::splat(f32::NAN)))
+                .starts_with("instance 0 moves vertex 0 of mesh 0 to (NaN")
+        );
+    }
+
+    #[test]
+    fn views_must_be_usable() {
+        assert!(message(|s| s.cameras[0].fov_y = 0.0).starts_with("cameras[0]: fov_y"));
+        assert!(message(|s| s.cameras[0].target = s.cameras[0].position + Vec3::Y).contains("up must not"));
+        let long = Light::Directional { direction: Vec3::splat(2.0) };
+        assert_eq!(message(|s| s.lights[0] = long), "lights[0]: direction must have length 1");
     }
 }
