@@ -29,8 +29,9 @@
 //! s_f(x) = Σ_q w(q) f(d, z(p − q)) (Annen et al. 2007, Eq. 4) with z from rays: the share of the
 //! kernel's offsets q whose light path reaches the receiver. The receiver's depth is that of its
 //! *tangent plane* at p − q (the d(y) of Eq. 3), not d(x), with which half of every tilted lit plane
-//! would be in its own shadow. So a concave receiver, whose surface rises above its tangent planes,
-//! darkens a little within a kernel's width of the fold.
+//! would be in its own shadow. The price: where other surfaces rise above the tangent plane it counts
+//! them as blockers. A lit wall darkens within a kernel's width of the floor, and so do facets that
+//! the light grazes, whose planes soon dive under something.
 //!
 //! Beyond a depth change of 64 per lateral unit (light at less than 0.9° to the plane), or where the
 //! plane of a spot's receiver would leave the range from ⅔ to 2 times the receiver's depth, the
