@@ -1,23 +1,424 @@
-//! Laws that every technique obeys, for every member of `all()`.
+//! Laws that every technique obeys, for every member of `all()` and a few settings of each.
+//!
+//! A law is a function that says what is wrong; each is also given a technique that is broken on
+//! purpose, and must say so.
 
 mod common;
 
-use antumbra::{Size, technique};
-use common::{Receiver, depth_texture, shadow_map, visibility};
+use antumbra::{
+    Capabilities, Size, Technique, View, technique,
+    technique::{Bias, Binding, Constant, DepthSpace, Map, Page, Pass, Uniform},
+};
+use antumbra_testing::{Gpu, Trials};
+use common::{Random, Receiver, depth_layers, depth_texture, shadow_map, shadow_map_of, texels, visibility};
+use glam::{Mat4, Vec2, Vec3};
 
 const SIZE: Size = Size::square(64);
 
-fn main() {
-    let mut trials = antumbra_testing::Trials::default();
-    for spec in technique::all().iter().map(|t| t.page().name) {
-        trials.add(format!("{spec}: lit where nothing casts"), move |gpu| {
-            let depth = depth_texture(gpu, SIZE, |_, _| 1.0);
-            let technique = technique::parse(spec).unwrap();
-            let shadows = shadow_map(gpu, technique.as_ref(), &depth, SIZE.into());
-            let receivers: Vec<_> = (0..64).map(|i| Receiver::point(0.3, 0.6, i as f32 / 64.0)).collect();
-            for (r, v) in receivers.iter().zip(visibility(gpu, &shadows, &receivers)) {
-                assert!((0.999 - technique.ripple()..=1.0).contains(&v), "depth {}: {v}", r.depth);
+type Law = fn(&Gpu, &dyn Technique) -> Result<(), String>;
+
+/// Defaults of each member, and settings that take other paths.
+fn specs() -> Vec<String> {
+    let mut specs = Vec::new();
+    for mut technique in technique::all() {
+        let name = technique.page().name;
+        let has: Vec<&str> = technique.parameters().iter().map(|p| p.name).collect();
+        specs.push(name.to_string());
+        let mut more = |needs, settings| {
+            if has.contains(&needs) {
+                specs.push(format!("{name}.{settings}"));
             }
+        };
+        more("terms", "terms=4");
+        more("terms", "terms=1,lift=both");
+        more("taps", "taps=nearest,kernel=5");
+        more("sampling", "sampling=anisotropic");
+        more("sampling", "sampling=nearest,kernel=1");
+    }
+    specs
+}
+
+/// Sets a parameter where there is one.
+fn try_set(technique: &mut dyn Technique, name: &str, value: &str) {
+    if technique.parameters().iter().any(|p| p.name == name) {
+        technique::set(technique, name, value).unwrap();
+    }
+}
+
+/// What blocks of random depth a map is made of: flat within, so that no texel is a slope.
+fn blocks(seed: u64, side: u32) -> impl Fn(u32, u32) -> f32 {
+    let mut random = Random::new(seed);
+    let count = SIZE.width.div_ceil(side);
+    let depths: Vec<f32> = (0..count * count).map(|_| random.unit()).collect();
+    move |x, y| depths[(y / side * count + x / side) as usize]
+}
+
+fn receivers(seed: u64, count: usize) -> Vec<Receiver> {
+    let mut random = Random::new(seed);
+    (0..count)
+        .map(|_| {
+            let footprint = Vec2::new(random.range(-18.0, -3.0).exp2(), random.range(-18.0, -3.0).exp2());
+            Receiver { uv: Vec2::new(random.unit(), random.unit()), depth: random.unit(), footprint }
+        })
+        .collect()
+}
+
+fn all_of<'a>(
+    results: impl Iterator<Item = (&'a Receiver, f32)>,
+    good: impl Fn(&Receiver, f32) -> bool,
+) -> Result<(), String> {
+    for (r, v) in results {
+        if !good(r, v) {
+            return Err(format!("visibility {v} at {} in depth {}", r.uv, r.depth));
+        }
+    }
+    Ok(())
+}
+
+/// Weights that sum to one in f32 may exceed one by some roundings.
+fn stays_within_zero_and_one(gpu: &Gpu, technique: &dyn Technique) -> Result<(), String> {
+    for side in [1, 5] {
+        let shadows = shadow_map(gpu, technique, &depth_texture(gpu, SIZE, blocks(1, side)), SIZE.into());
+        let receivers = receivers(2, 4096);
+        let results = visibility(gpu, &shadows, &receivers);
+        all_of(receivers.iter().zip(results), |_, v| (0.0..=1.0 + 1e-6).contains(&v))?;
+    }
+    Ok(())
+}
+
+/// Up to the far plane itself, where the receiver touches what an empty texel stores.
+fn is_lit_without_casters(gpu: &Gpu, technique: &dyn Technique) -> Result<(), String> {
+    let shadows = shadow_map(gpu, technique, &depth_texture(gpu, SIZE, |_, _| 1.0), SIZE.into());
+    let receivers: Vec<_> = (0..=256).map(|i| Receiver::point(0.3, 0.6, i as f32 / 256.0)).collect();
+    let least = 0.999 - technique.ripple();
+    all_of(receivers.iter().zip(visibility(gpu, &shadows, &receivers)), |_, v| v >= least)
+}
+
+fn is_dark_behind_a_blocker(gpu: &Gpu, technique: &dyn Technique) -> Result<(), String> {
+    let shadows = shadow_map(gpu, technique, &depth_texture(gpu, SIZE, |_, _| 0.2), SIZE.into());
+    let receivers: Vec<_> =
+        (0..=256).map(|i| Receiver::point(0.7, 0.4, 0.7 + 0.3 * i as f32 / 256.0)).collect();
+    let most = technique.ripple() + 1e-4;
+    all_of(receivers.iter().zip(visibility(gpu, &shadows, &receivers)), |_, v| v <= most)
+}
+
+/// Ripples may rise by their whole height once, up to rounding.
+fn darkens_with_depth(gpu: &Gpu, technique: &dyn Technique) -> Result<(), String> {
+    const STEPS: usize = 64;
+    let shadows = shadow_map(gpu, technique, &depth_texture(gpu, SIZE, blocks(3, 3)), SIZE.into());
+    let deeper = |r: Receiver| (0..STEPS).map(move |i| Receiver { depth: i as f32 / STEPS as f32, ..r });
+    let receivers: Vec<_> = receivers(4, 100).into_iter().flat_map(deeper).collect();
+    let results = visibility(gpu, &shadows, &receivers);
+    let most = 2.0 * technique.ripple() + 1e-4;
+    for (r, v) in receivers.chunks(STEPS).zip(results.chunks(STEPS)) {
+        let mut lowest = f32::INFINITY;
+        for (r, v) in r.iter().zip(v) {
+            lowest = lowest.min(*v);
+            if v - lowest > most {
+                return Err(format!("{} rises from {lowest} to {v} in depth {}", r.uv, r.depth));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Without blur and interpolation, at texel centres, out of the approximation's own ramp.
+fn shrinks_to_the_hard_shadow(gpu: &Gpu, technique: &dyn Technique) -> Result<(), String> {
+    let mut narrow = technique.boxed();
+    for (name, value) in [("kernel", "1"), ("sampling", "nearest"), ("taps", "nearest")] {
+        try_set(narrow.as_mut(), name, value);
+    }
+    let map = blocks(5, 4);
+    let shadows = shadow_map(gpu, narrow.as_ref(), &depth_texture(gpu, SIZE, &map), SIZE.into());
+    // A series lifted by its own half ramp is at one end of the ramp where d = z.
+    let uniform = |name| narrow.uniforms().iter().find(|(n, _)| *n == name).map_or(0.0, |(_, value)| *value);
+    let ramp = (2.0 * uniform("offset") / uniform("span").max(0.5)).max(0.1);
+    let mut random = Random::new(6);
+    let mut receivers = Vec::new();
+    let mut expected = Vec::new();
+    for (x, y) in (2..62).flat_map(|y| (2..62).map(move |x| (x, y))) {
+        let (z, d) = (map(x, y), random.unit());
+        if (d - z).abs() > ramp {
+            receivers.push(Receiver::point((x as f32 + 0.5) / 64.0, (y as f32 + 0.5) / 64.0, d));
+            expected.push(if d <= z { 1.0 } else { 0.0 });
+        }
+    }
+    // A series of one term is all ramp: nothing to compare.
+    if receivers.is_empty() {
+        return Ok(());
+    }
+    let tolerance = technique.ripple() + 1e-3;
+    let results = visibility(gpu, &shadows, &receivers);
+    for ((r, v), e) in receivers.iter().zip(results).zip(expected) {
+        if (v - e).abs() > tolerance {
+            return Err(format!("visibility {v} instead of {e} at {} in depth {}", r.uv, r.depth));
+        }
+    }
+    Ok(())
+}
+
+/// Blur with a constant border, and every mip level, keep the mean of what is stored.
+fn filtering_keeps_the_mean(gpu: &Gpu, technique: &dyn Technique) -> Result<(), String> {
+    let inner = blocks(7, 1);
+    let border = |x: u32| !(16..48).contains(&x);
+    let depth = depth_texture(gpu, SIZE, |x, y| if border(x) || border(y) { 0.5 } else { inner(x, y) });
+    let filtered = shadow_map(gpu, technique, &depth, SIZE.into());
+    let mut plain = technique.boxed();
+    try_set(plain.as_mut(), "kernel", "1");
+    let plain = shadow_map(gpu, plain.as_ref(), &depth, SIZE.into());
+    for index in 0.. {
+        let (Some(filtered), Some(plain)) = (filtered.map_texture(index), plain.map_texture(index)) else {
+            break;
+        };
+        // Eight bits round at every step; their mean moves by far less than a level.
+        let eight = filtered.format() == wgpu::TextureFormat::Rgba8Unorm;
+        for layer in 0..filtered.depth_or_array_layers() {
+            let mean = |texture: &wgpu::Texture, mip| -> [f64; 4] {
+                let texels = texels(gpu, texture, layer, mip);
+                std::array::from_fn(|i| texels.iter().map(|t| t[i]).sum::<f64>() / texels.len() as f64)
+            };
+            let expected = mean(plain, 0);
+            for mip in 0..filtered.mip_level_count() {
+                let found = mean(filtered, mip);
+                for (f, e) in found.iter().zip(expected) {
+                    if (f - e).abs() > if eight { 1.0 / 255.0 } else { 1e-5 * e.abs() } {
+                        return Err(format!("layer {layer}, level {mip}: mean {f} instead of {e}"));
+                    }
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The same depth in the second layer of a two-view map, behind a first view that looks elsewhere.
+fn views_do_not_matter(gpu: &Gpu, technique: &dyn Technique) -> Result<(), String> {
+    let map = blocks(8, 4);
+    let alone = shadow_map(gpu, technique, &depth_texture(gpu, SIZE, &map), SIZE.into());
+    let depth =
+        depth_layers(gpu, SIZE, 2, |layer, x, y| if layer == 1 { map(x, y) } else { 1.0 - map(x, y) });
+    let here = common::view(SIZE);
+    let elsewhere = View { clip_from_world: Mat4::from_translation(Vec3::new(3.0, 0.0, 0.0)), ..here };
+    let second = shadow_map_of(gpu, technique, &depth, SIZE.into(), &[elsewhere, here]);
+    let receivers = receivers(9, 1024);
+    let expected = visibility(gpu, &alone, &receivers);
+    let found = visibility(gpu, &second, &receivers);
+    all_of(receivers.iter().zip(expected.iter().zip(found).map(|(e, f)| e - f)), |_, difference| {
+        difference == 0.0
+    })
+}
+
+/// Interpolation in the shader gives what the sampler gives, and is told.
+fn fallbacks_agree(gpu: &Gpu, technique: &dyn Technique) -> Result<(), String> {
+    let lesser =
+        antumbra_testing::gpu_without(wgpu::Features::FLOAT32_FILTERABLE).ok_or("no second device")?;
+    let receivers = receivers(10, 4096);
+    let ask = |gpu: &Gpu| {
+        let shadows = shadow_map(gpu, technique, &depth_texture(gpu, SIZE, blocks(11, 3)), SIZE.into());
+        (visibility(gpu, &shadows, &receivers), shadows.explain().join("; "))
+    };
+    let (expected, _) = ask(gpu);
+    let (found, explained) = lesser.checked(ask);
+    // Moments are rounded by 6e-8, which a variance near its floor of 1e-6 magnifies; GPUs interpolate
+    // with 8-bit weights besides.
+    let variance = technique.uniforms().iter().any(|(name, _)| *name == "least_variance");
+    let tolerance = match gpu.info.device_type {
+        wgpu::DeviceType::Cpu if variance => 1e-3,
+        wgpu::DeviceType::Cpu => 1e-4,
+        _ => 2e-2,
+    };
+    all_of(receivers.iter().zip(expected.iter().zip(found).map(|(e, f)| e - f)), |_, difference| {
+        difference.abs() <= tolerance
+    })?;
+    let capabilities = Capabilities::of(&lesser.device);
+    let interpolates = !technique.parts(&capabilities).contains(&"lookup_nearest");
+    for map in technique.maps(&capabilities).unwrap() {
+        let said =
+            explained.contains(&format!("{} in {:?}, interpolated by the shader", map.name, map.format));
+        if said != (interpolates && !capabilities.filters(map.format)) {
+            return Err(format!("explain() says: {explained}"));
+        }
+    }
+    Ok(())
+}
+
+const LAWS: [(&str, Law); 8] = [
+    ("visibility within [0,1]", stays_within_zero_and_one),
+    ("lit without casters", is_lit_without_casters),
+    ("dark behind a blocker", is_dark_behind_a_blocker),
+    ("darker with depth", darkens_with_depth),
+    ("hard when the kernel shrinks", shrinks_to_the_hard_shadow),
+    ("filtering keeps the mean", filtering_keeps_the_mean),
+    ("the same in any view", views_do_not_matter),
+    ("fallbacks agree", fallbacks_agree),
+];
+
+/// A technique with one thing wrong.
+#[derive(Debug, Clone)]
+struct Broken {
+    inner: Box<dyn Technique>,
+    wgsl: &'static str,
+    /// Factor of all kernel weights.
+    weights: f32,
+    /// A uniform with a wrong value.
+    uniform: Option<Uniform>,
+    /// Takes one texel where it should interpolate by itself.
+    careless: bool,
+}
+
+impl Broken {
+    fn new(spec: &str) -> Self {
+        let inner = technique::parse(spec).unwrap();
+        Self { wgsl: inner.wgsl(), inner, weights: 1.0, uniform: None, careless: false }
+    }
+
+    /// With other words in its WGSL.
+    fn saying(spec: &str, right: &str, wrong: &str) -> Self {
+        let plain = Self::new(spec);
+        assert!(plain.wgsl.contains(right), "{right}");
+        Self { wgsl: plain.wgsl.replace(right, wrong).leak(), ..plain }
+    }
+}
+
+impl Technique for Broken {
+    fn page(&self) -> Page {
+        self.inner.page()
+    }
+    fn parameters(&mut self) -> Vec<antumbra::Parameter<'_>> {
+        self.inner.parameters()
+    }
+    fn maps(&self, device: &Capabilities) -> Result<Vec<Map>, antumbra::Unsupported> {
+        let mut maps = self.inner.maps(device)?;
+        for pass in maps.iter_mut().flat_map(|m| &mut m.passes) {
+            if let Pass::Blur(kernel) = pass {
+                kernel.taps.iter_mut().for_each(|w| *w *= self.weights);
+            }
+        }
+        Ok(maps)
+    }
+    fn bindings(&self) -> Vec<Binding> {
+        self.inner.bindings()
+    }
+    fn wgsl(&self) -> &'static str {
+        self.wgsl
+    }
+    fn uniforms(&self) -> Vec<Uniform> {
+        let wrong = |u: Uniform| self.uniform.filter(|w| w.0 == u.0).unwrap_or(u);
+        self.inner.uniforms().into_iter().map(wrong).collect()
+    }
+    fn constants(&self) -> Vec<Constant> {
+        let mut constants = self.inner.constants();
+        for constant in &mut constants {
+            if let Constant::Array(_, values) = constant {
+                values.iter_mut().for_each(|w| *w *= self.weights);
+            }
+        }
+        constants
+    }
+    fn parts(&self, device: &Capabilities) -> Vec<&'static str> {
+        let parts = self.inner.parts(device);
+        if self.careless && parts.contains(&"level_manual") { vec!["lookup_nearest"] } else { parts }
+    }
+    fn bias(&self) -> Bias {
+        self.inner.bias()
+    }
+    fn depth_space(&self) -> DepthSpace {
+        self.inner.depth_space()
+    }
+    fn reach_texels(&self) -> f32 {
+        self.inner.reach_texels()
+    }
+    fn ripple(&self) -> f32 {
+        self.inner.ripple()
+    }
+    fn boxed(&self) -> Box<dyn Technique> {
+        Box::new(self.clone())
+    }
+}
+
+/// For each law, what it must reject.
+fn broken() -> Vec<(&'static str, Law, Broken)> {
+    vec![
+        (
+            "weights that do not sum to one",
+            stays_within_zero_and_one,
+            Broken { weights: 1.2, ..Broken::new("pcf") },
+        ),
+        (
+            "empty texels that store zero",
+            is_lit_without_casters,
+            Broken::saying(
+                "esm",
+                "exp(c * depths[1][1])",
+                "select(exp(c * depths[1][1]), 0.0, depths[1][1] == 1.0)",
+            ),
+        ),
+        (
+            "a series without offset",
+            is_lit_without_casters,
+            Broken { uniform: Some(("offset", 0.0)), ..Broken::new("csm") },
+        ),
+        (
+            "the sign of d − z reversed",
+            is_dark_behind_a_blocker,
+            Broken::saying("esm", "exp(-c * depth)", "exp(c * depth)"),
+        ),
+        (
+            "the sign of Eq. 11",
+            is_dark_behind_a_blocker,
+            Broken::saying("csm", "(first.y * b.x - first.x * b.y)", "(first.x * b.y - first.y * b.x)"),
+        ),
+        (
+            "depth upside down",
+            darkens_with_depth,
+            Broken::saying("vsm", "vsm_bound(depth,", "vsm_bound(1.0 - depth,"),
+        ),
+        (
+            "the neighbouring texel",
+            shrinks_to_the_hard_shadow,
+            Broken::saying(
+                "hard",
+                "compare, uv, view",
+                "compare, uv + 1.0 / vec2f(textureDimensions(casters)), view",
+            ),
+        ),
+        (
+            "far too much variance",
+            shrinks_to_the_hard_shadow,
+            Broken { uniform: Some(("least_variance", 0.01)), ..Broken::new("vsm") },
+        ),
+        ("a blur that brightens", filtering_keeps_the_mean, Broken { weights: 1.01, ..Broken::new("vsm") }),
+        (
+            "the first view's layer always",
+            views_do_not_matter,
+            Broken::saying("esm", "map_sampler, uv, view, ddx", "map_sampler, uv, 0u, ddx"),
+        ),
+        (
+            "the first view's depth always",
+            views_do_not_matter,
+            Broken::saying("pcf", "uv + offset, view", "uv + offset, 0u"),
+        ),
+        (
+            "no interpolation on lesser devices",
+            fallbacks_agree,
+            Broken { careless: true, ..Broken::new("vsm") },
+        ),
+    ]
+}
+
+fn main() {
+    let mut trials = Trials::default();
+    for (law, check) in LAWS {
+        for spec in specs() {
+            trials.add(format!("{spec}: {law}"), move |gpu| {
+                check(gpu, technique::parse(&spec).unwrap().as_ref()).unwrap();
+            });
+        }
+    }
+    for (what, law, broken) in broken() {
+        let name = LAWS.iter().find(|(_, l)| std::ptr::fn_addr_eq(*l, law)).map_or("", |(name, _)| *name);
+        trials.add(format!("rejected: {what} ({}; {name})", broken.page().name), move |gpu| {
+            law(gpu, &broken).expect_err("a law must tell");
         });
     }
     trials.run();

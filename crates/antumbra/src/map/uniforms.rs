@@ -2,7 +2,7 @@
 
 use super::{Options, memory::MemoryItem};
 use crate::{
-    light::View,
+    light::{Size, View},
     technique::{Bias, Technique},
 };
 
@@ -44,10 +44,8 @@ impl Uniforms {
         options: &Options,
     ) -> Self {
         let (width, height) = (options.size.width as f32, options.size.height as f32);
-        let settings: Vec<f32> = technique.uniforms().into_iter().map(|(_, value)| value).collect();
-        let mut scalars =
-            vec![width, height, bias.constant_texels, bias.slope_texels, bias.normal_offset_texels];
-        scalars.extend(&settings);
+        let scalars = scalars(technique, bias, options.size);
+        let settings = technique.uniforms().len();
         let room = options.views as usize;
         let buffer = |label, size: u64| {
             device.create_buffer(&wgpu::BufferDescriptor {
@@ -58,7 +56,7 @@ impl Uniforms {
             })
         };
         let alignment = u64::from(device.limits().min_uniform_buffer_offset_alignment);
-        let stride = (4 * (1 + settings.len() as u64)).next_multiple_of(16).next_multiple_of(alignment);
+        let stride = (4 * (1 + settings as u64)).next_multiple_of(16).next_multiple_of(alignment);
         let receiver = buffer("shadow receiver", room as u64 * VIEW_BYTES + 4 * (1 + scalars.len() as u64));
         Self {
             convert: buffer("shadow convert", room as u64 * stride),
@@ -67,29 +65,14 @@ impl Uniforms {
             stride,
             room,
             scalars,
-            settings: settings.len(),
+            settings,
             // A lookup within half a texel of the border would read beyond it; so does a kernel.
             reach: [1.0 / width, 1.0 / height].map(|texel| (technique.reach_texels() * texel).min(0.499)),
         }
     }
 
     pub(super) fn write(&mut self, queue: &wgpu::Queue, views: &[View]) {
-        let blank = <ShadowView as bytemuck::Zeroable>::zeroed();
-        self.bytes.clear();
-        for i in 0..self.room {
-            let view = views.get(i).map_or(blank, |v| ShadowView {
-                clip_from_world: v.clip_from_world.to_cols_array_2d(),
-                depth_plane: v.depth_plane.to_array(),
-                to_light: v.to_light.to_array(),
-                texel_world: v.texel_world,
-                near_over_far: v.near_over_far,
-                reach_x: self.reach[0],
-                reach_y: self.reach[1],
-            });
-            self.bytes.extend_from_slice(bytemuck::bytes_of(&view));
-        }
-        self.bytes.extend_from_slice(&(views.len() as u32).to_ne_bytes());
-        self.bytes.extend_from_slice(bytemuck::cast_slice(&self.scalars));
+        receiver_bytes(&mut self.bytes, views, self.room, self.reach, &self.scalars);
         queue.write_buffer(&self.receiver, 0, &self.bytes);
 
         let settings = &self.scalars[self.scalars.len() - self.settings..];
@@ -122,6 +105,33 @@ impl Uniforms {
     }
 }
 
+/// What follows `views` and `view_count`: size, bias, settings.
+fn scalars(technique: &dyn Technique, bias: Bias, size: Size) -> Vec<f32> {
+    let (width, height) = (size.width as f32, size.height as f32);
+    let fixed = [width, height, bias.constant_texels, bias.slope_texels, bias.normal_offset_texels];
+    fixed.into_iter().chain(technique.uniforms().into_iter().map(|(_, value)| value)).collect()
+}
+
+/// `ShadowUniforms` of the receiver's glue, with blank views up to `room`.
+fn receiver_bytes(bytes: &mut Vec<u8>, views: &[View], room: usize, reach: [f32; 2], scalars: &[f32]) {
+    let blank = <ShadowView as bytemuck::Zeroable>::zeroed();
+    bytes.clear();
+    for i in 0..room {
+        let view = views.get(i).map_or(blank, |v| ShadowView {
+            clip_from_world: v.clip_from_world.to_cols_array_2d(),
+            depth_plane: v.depth_plane.to_array(),
+            to_light: v.to_light.to_array(),
+            texel_world: v.texel_world,
+            near_over_far: v.near_over_far,
+            reach_x: reach[0],
+            reach_y: reach[1],
+        });
+        bytes.extend_from_slice(bytemuck::bytes_of(&view));
+    }
+    bytes.extend_from_slice(&(views.len() as u32).to_ne_bytes());
+    bytes.extend_from_slice(bytemuck::cast_slice(scalars));
+}
+
 /// Layout entry of the receiver's uniforms.
 pub(super) fn layout_entry(binding: u32) -> wgpu::BindGroupLayoutEntry {
     wgpu::BindGroupLayoutEntry {
@@ -135,3 +145,6 @@ pub(super) fn layout_entry(binding: u32) -> wgpu::BindGroupLayoutEntry {
         count: None,
     }
 }
+
+#[cfg(test)]
+mod tests;

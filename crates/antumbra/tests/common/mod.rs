@@ -39,14 +39,25 @@ pub fn view(size: Size) -> View {
 
 /// A depth texture with `depth(x, y)` in texel (x, y), y down.
 pub fn depth_texture(gpu: &Gpu, size: Size, depth: impl Fn(u32, u32) -> f32) -> wgpu::Texture {
-    let texels: Vec<f32> = (0..size.height)
-        .flat_map(|y| (0..size.width).map(move |x| (x, y)))
-        .map(|(x, y)| depth(x, y))
+    depth_layers(gpu, size, 1, |_, x, y| depth(x, y))
+}
+
+/// A depth texture with `depth(layer, x, y)` in texel (x, y) of each layer, y down.
+pub fn depth_layers(
+    gpu: &Gpu,
+    size: Size,
+    layers: u32,
+    depth: impl Fn(u32, u32, u32) -> f32,
+) -> wgpu::Texture {
+    let texels: Vec<f32> = (0..layers)
+        .flat_map(|layer| (0..size.height).map(move |y| (layer, y)))
+        .flat_map(|(layer, y)| (0..size.width).map(move |x| (layer, x, y)))
+        .map(|(layer, x, y)| depth(layer, x, y))
         .collect();
     let texture = |format, usage| {
         gpu.device.create_texture(&wgpu::TextureDescriptor {
             label: Some("test depth"),
-            size: wgpu::Extent3d { width: size.width, height: size.height, depth_or_array_layers: 1 },
+            size: wgpu::Extent3d { width: size.width, height: size.height, depth_or_array_layers: layers },
             mip_level_count: 1,
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,
@@ -61,7 +72,11 @@ pub fn depth_texture(gpu: &Gpu, size: Size, depth: impl Fn(u32, u32) -> f32) -> 
     gpu.queue.write_texture(
         source.as_image_copy(),
         bytes_of(&texels),
-        wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(4 * size.width), rows_per_image: None },
+        wgpu::TexelCopyBufferLayout {
+            offset: 0,
+            bytes_per_row: Some(4 * size.width),
+            rows_per_image: Some(size.height),
+        },
         source.size(),
     );
     let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
@@ -95,21 +110,29 @@ pub fn depth_texture(gpu: &Gpu, size: Size, depth: impl Fn(u32, u32) -> f32) -> 
         multiview_mask: None,
         cache: None,
     });
-    let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: None,
-        layout: &pipeline.get_bind_group_layout(0),
-        entries: &[wgpu::BindGroupEntry {
-            binding: 0,
-            resource: wgpu::BindingResource::TextureView(&source.create_view(&Default::default())),
-        }],
-    });
+    let one = |texture: &wgpu::Texture, layer| {
+        texture.create_view(&wgpu::TextureViewDescriptor {
+            dimension: Some(wgpu::TextureViewDimension::D2),
+            base_array_layer: layer,
+            array_layer_count: Some(1),
+            ..Default::default()
+        })
+    };
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    {
+    for layer in 0..layers {
+        let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: None,
+            layout: &pipeline.get_bind_group_layout(0),
+            entries: &[wgpu::BindGroupEntry {
+                binding: 0,
+                resource: wgpu::BindingResource::TextureView(&one(&source, layer)),
+            }],
+        });
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("test depth"),
             color_attachments: &[],
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-                view: &target.create_view(&Default::default()),
+                view: &one(&target, layer),
                 depth_ops: Some(wgpu::Operations {
                     load: wgpu::LoadOp::Clear(1.0),
                     store: wgpu::StoreOp::Store,
@@ -135,8 +158,23 @@ pub fn shadow_map(
     depth: &wgpu::Texture,
     options: Options,
 ) -> ShadowMap {
+    shadow_map_of(gpu, technique, depth, options, &[view(texels_of(depth))])
+}
+
+fn texels_of(depth: &wgpu::Texture) -> Size {
+    Size { width: depth.width(), height: depth.height() }
+}
+
+/// The same with those views, one per layer of the depth.
+pub fn shadow_map_of(
+    gpu: &Gpu,
+    technique: &dyn Technique,
+    depth: &wgpu::Texture,
+    options: Options,
+    views: &[View],
+) -> ShadowMap {
     let mut shadows = ShadowMap::from_depth(&gpu.device, technique, depth, options).unwrap();
-    shadows.prepare(&gpu.queue, &[view(shadows.size())]).unwrap();
+    shadows.prepare(&gpu.queue, views).unwrap();
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     shadows.encode_filter(&mut encoder, &mut NoProbe);
     gpu.queue.submit([encoder.finish()]);
@@ -249,4 +287,49 @@ pub fn bytes_of(values: &[f32]) -> &[u8] {
 /// Floats of bytes.
 pub fn floats(bytes: &[u8]) -> Vec<f32> {
     bytes.chunks_exact(4).map(|b| f32::from_ne_bytes([b[0], b[1], b[2], b[3]])).collect()
+}
+
+/// Texels of one layer and level of a map, up to four channels, in f64.
+pub fn texels(gpu: &Gpu, texture: &wgpu::Texture, layer: u32, mip: u32) -> Vec<[f64; 4]> {
+    let bytes = gpu.read_texture(texture, layer, mip);
+    let pack = |values: &[f64], channels: usize| -> Vec<[f64; 4]> {
+        values
+            .chunks_exact(channels)
+            .map(|c| std::array::from_fn(|i| c.get(i).copied().unwrap_or(0.0)))
+            .collect()
+    };
+    let wide = || floats(&bytes).into_iter().map(f64::from).collect::<Vec<f64>>();
+    match texture.format() {
+        wgpu::TextureFormat::Rgba8Unorm => {
+            pack(&bytes.iter().map(|b| f64::from(*b) / 255.0).collect::<Vec<f64>>(), 4)
+        }
+        wgpu::TextureFormat::R32Float => pack(&wide(), 1),
+        wgpu::TextureFormat::Rg32Float => pack(&wide(), 2),
+        wgpu::TextureFormat::Rgba32Float => pack(&wide(), 4),
+        format => panic!("teach this test to read {format:?}"),
+    }
+}
+
+/// Reproducible random numbers (xorshift).
+#[derive(Debug)]
+pub struct Random(u64);
+
+impl Random {
+    /// A sequence of its own for each seed.
+    pub fn new(seed: u64) -> Self {
+        Self(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1)
+    }
+
+    /// Uniform in [0,1).
+    pub fn unit(&mut self) -> f32 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 40) as f32 / (1u64 << 24) as f32
+    }
+
+    /// Uniform in [low,high).
+    pub fn range(&mut self, low: f32, high: f32) -> f32 {
+        low + (high - low) * self.unit()
+    }
 }

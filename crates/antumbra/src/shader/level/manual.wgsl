@@ -1,20 +1,21 @@
 /// The four texels around uv at mip level `level`, with bilinear weights: for formats that the
-/// device cannot filter.
-fn level_bilinear(map: texture_2d_array<f32>, uv: vec2f, layer: u32, level: u32) -> vec4f {
-    let size = vec2i(textureDimensions(map, level));
-    let p = uv * vec2f(size) - 0.5;
-    let corner = vec2i(floor(p));
-    let weight = p - floor(p);
-    let low = clamp(corner, vec2i(0), size - 1);
-    let high = clamp(corner + 1, vec2i(0), size - 1);
+/// device cannot filter. Texels come through the (nearest) sampler: some drivers give all lanes of
+/// a textureLoad, or of textureDimensions, the level of the first.
+fn level_bilinear(map: texture_2d_array<f32>, map_sampler: sampler, uv: vec2f, layer: u32, level: f32) -> vec4f {
+    let size = vec2f(max(textureDimensions(map) >> vec2u(u32(level)), vec2u(1u)));
+    let p = uv * size - 0.5;
+    let corner = floor(p);
+    let weight = p - corner;
+    let low = (clamp(corner, vec2f(0.0), size - 1.0) + 0.5) / size;
+    let high = (clamp(corner + 1.0, vec2f(0.0), size - 1.0) + 0.5) / size;
     let top = mix(
-        textureLoad(map, low, layer, level),
-        textureLoad(map, vec2i(high.x, low.y), layer, level),
+        textureSampleLevel(map, map_sampler, low, layer, level),
+        textureSampleLevel(map, map_sampler, vec2f(high.x, low.y), layer, level),
         weight.x,
     );
     let bottom = mix(
-        textureLoad(map, vec2i(low.x, high.y), layer, level),
-        textureLoad(map, high, layer, level),
+        textureSampleLevel(map, map_sampler, vec2f(low.x, high.y), layer, level),
+        textureSampleLevel(map, map_sampler, high, layer, level),
         weight.x,
     );
     return mix(top, bottom, weight.y);
@@ -22,9 +23,8 @@ fn level_bilinear(map: texture_2d_array<f32>, uv: vec2f, layer: u32, level: u32)
 
 /// One bilinear lookup at a whole mip level, or between two, in the shader.
 fn level_filtered(map: texture_2d_array<f32>, map_sampler: sampler, uv: vec2f, layer: u32, level: f32) -> vec4f {
-    let last = f32(textureNumLevels(map) - 1u);
-    let l = clamp(level, 0.0, last);
-    let fine = level_bilinear(map, uv, layer, u32(floor(l)));
-    let coarse = level_bilinear(map, uv, layer, u32(ceil(l)));
-    return mix(fine, coarse, l - floor(l));
+    let l = clamp(level, 0.0, f32(textureNumLevels(map) - 1u));
+    let fine = level_bilinear(map, map_sampler, uv, layer, floor(l));
+    let coarse = level_bilinear(map, map_sampler, uv, layer, ceil(l));
+    return mix(fine, coarse, fract(l));
 }

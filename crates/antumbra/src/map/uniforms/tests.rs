@@ -1,0 +1,145 @@
+use super::*;
+use crate::{
+    capabilities::Capabilities,
+    light::Size,
+    shader,
+    technique::{all, parse},
+};
+use naga::{TypeInner, front::wgsl::parse_str};
+use std::mem::offset_of;
+
+/// Name, offset and size in bytes of each member, and the size of the whole.
+type Layout = (Vec<(String, u32, u32)>, u32);
+
+fn layout(module: &naga::Module, name: &str) -> Layout {
+    let (_, ty) = module.types.iter().find(|(_, t)| t.name.as_deref() == Some(name)).unwrap();
+    let TypeInner::Struct { members, span } = &ty.inner else { panic!("{name} is no struct") };
+    let size = |ty| module.types[ty].inner.size(module.to_ctx());
+    let rows = members.iter().map(|m| (m.name.clone().unwrap(), m.offset, size(m.ty))).collect();
+    (rows, *span)
+}
+
+/// `ShadowView` as Rust lays it out.
+fn rust_view() -> Layout {
+    macro_rules! row {
+        ($field:ident) => {{
+            let zero: ShadowView = bytemuck::Zeroable::zeroed();
+            let offset = offset_of!(ShadowView, $field) as u32;
+            (stringify!($field).to_string(), offset, size_of_val(&zero.$field) as u32)
+        }};
+    }
+    let rows = vec![
+        row!(clip_from_world),
+        row!(depth_plane),
+        row!(to_light),
+        row!(texel_world),
+        row!(near_over_far),
+        row!(reach_x),
+        row!(reach_y),
+    ];
+    (rows, VIEW_BYTES as u32)
+}
+
+fn device() -> Capabilities {
+    Capabilities { features: wgpu::Features::empty(), limits: wgpu::Limits::default() }
+}
+
+fn same(wgsl: &str) -> Result<(), String> {
+    let module = parse_str(wgsl).map_err(|e| e.emit_to_string(wgsl))?;
+    let (found, expected) = (layout(&module, "ShadowView"), rust_view());
+    if found == expected { Ok(()) } else { Err(format!("WGSL {found:?}, Rust {expected:?}")) }
+}
+
+#[test]
+fn the_view_is_laid_out_alike_in_rust_and_wgsl() {
+    for technique in all() {
+        let text = shader::receiver(technique.as_ref(), &device(), 3, 0).text();
+        same(&text).unwrap();
+        let module = parse_str(&text).unwrap();
+        let stride = module
+            .types
+            .iter()
+            .find_map(|(_, t)| match t.inner {
+                TypeInner::Array { stride, base, .. }
+                    if module.types[base].name.as_deref() == Some("ShadowView") =>
+                {
+                    Some(stride)
+                }
+                _ => None,
+            })
+            .unwrap();
+        assert_eq!(u64::from(stride), VIEW_BYTES);
+        // Negative controls: two members swapped, one of another type.
+        let swapped = text
+            .replace("near_over_far: f32, reach_x: f32", "reach_x: f32, near_over_far: f32")
+            .replace("depth_plane: vec4f, to_light: vec4f", "to_light: vec4f, depth_plane: vec4f");
+        assert_ne!(swapped, text);
+        same(&swapped).unwrap_err();
+        same(&text.replace("to_light: vec4f", "to_light: vec2f")).unwrap_err();
+    }
+}
+
+/// The bytes that `write` writes to the receivers' buffer.
+fn written(technique: &dyn Technique, bias: Bias, size: Size, views: &[View], room: usize) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    receiver_bytes(&mut bytes, views, room, [0.25, 0.125], &scalars(technique, bias, size));
+    bytes
+}
+
+#[test]
+fn what_is_written_lies_where_the_shader_reads_it() {
+    let bias = Bias { constant_texels: 1.5, slope_texels: 2.5, normal_offset_texels: 3.5 };
+    let view = View {
+        clip_from_world: glam::Mat4::from_cols_array(&std::array::from_fn(|i| i as f32)),
+        depth_plane: glam::Vec4::new(20.0, 21.0, 22.0, 23.0),
+        to_light: glam::Vec4::new(24.0, 25.0, 26.0, 27.0),
+        texel_world: 28.0,
+        near_over_far: 29.0,
+        depth_world: 30.0,
+    };
+    for technique in ["hard", "pcf", "vsm.least_variance=0.001,slope=3", "csm.offset=0.2", "esm.c=33"] {
+        let technique = parse(technique).unwrap();
+        let module = parse_str(&shader::receiver(technique.as_ref(), &device(), 3, 0).text()).unwrap();
+        let (members, span) = layout(&module, "ShadowUniforms");
+        let bytes = written(technique.as_ref(), bias, Size { width: 640, height: 480 }, &[view, view], 3);
+        assert!(bytes.len() <= span as usize && span as usize <= bytes.len().next_multiple_of(16));
+        let word = |offset: u32| -> [u8; 4] { bytes[offset as usize..][..4].try_into().unwrap() };
+        let float = |offset| f32::from_ne_bytes(word(offset));
+        let mut expected = vec![
+            ("width".to_string(), 640.0),
+            ("height".into(), 480.0),
+            ("constant_texels".into(), 1.5),
+            ("slope_texels".into(), 2.5),
+            ("normal_offset_texels".into(), 3.5),
+        ];
+        expected.extend(technique.uniforms().into_iter().map(|(n, v)| (format!("setting_{n}"), v)));
+        assert_eq!(members[0].0, "views");
+        assert_eq!(members[1].0, "view_count");
+        assert_eq!(u32::from_ne_bytes(word(members[1].1)), 2);
+        let found: Vec<_> =
+            members[2..].iter().map(|(name, offset, _)| (name.clone(), float(*offset))).collect();
+        assert_eq!(found, expected);
+        // The second view, and the blank third.
+        let (rows, _) = layout(&module, "ShadowView");
+        let base = VIEW_BYTES as u32;
+        assert_eq!(float(base + 4 * 7), 7.0);
+        assert_eq!(float(base + rows[1].1), 20.0);
+        assert_eq!(float(base + rows[2].1), 24.0);
+        let tail: Vec<f32> = rows[3..].iter().map(|(_, offset, _)| float(base + offset)).collect();
+        assert_eq!(tail, [28.0, 29.0, 0.25, 0.125]);
+        assert!(bytes[2 * base as usize..3 * base as usize].iter().all(|b| *b == 0));
+    }
+}
+
+#[test]
+fn the_convert_settings_are_floats_in_order() {
+    for technique in all() {
+        for map in technique.maps(&device()).unwrap() {
+            let module = parse_str(&shader::convert(technique.as_ref(), &device(), &map, 0, 1)).unwrap();
+            let (members, _) = layout(&module, "Convert");
+            let names = std::iter::once("near_over_far").chain(technique.uniforms().into_iter().map(|u| u.0));
+            let expected: Vec<_> = names.zip(0..).map(|(name, i)| (name.to_string(), 4 * i, 4)).collect();
+            assert_eq!(members, expected);
+        }
+    }
+}
