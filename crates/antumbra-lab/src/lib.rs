@@ -1,7 +1,19 @@
-//! antumbra-lab
+//! The lab: renders a scene with every technique, scores each against ray-traced truth, times it,
+//! and writes a report.
+//!
+//! [`compare::compare`] does it all: [`stage`] draws what casters leave and what the camera sees,
+//! [`lighting`] turns that into visibility and pictures, `antumbra-truth` says what is right,
+//! [`metrics`] how far off a technique is, [`timing`] what it costs; [`results`] is the outcome as
+//! data and [`report`] as a page.
 
+pub mod compare;
 pub mod files;
+pub mod gpu;
+pub mod lighting;
 pub mod metrics;
 pub mod plane;
+pub mod regions;
 pub mod report;
 pub mod results;
+pub mod stage;
+pub mod timing;

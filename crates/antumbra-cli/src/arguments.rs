@@ -1,0 +1,146 @@
+//! The command line.
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap_complete::Shell;
+use std::path::PathBuf;
+
+/// Which shadow map is best for your scene? Renders it with every technique, traces the truth, and
+/// shows picture, error, time and memory.
+#[derive(Debug, Parser)]
+#[command(version, max_term_width = 100, after_help = "Start with: antumbra compare fence -o report")]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Score techniques against ray-traced truth and write a report
+    #[command(after_help = COMPARE_EXAMPLES)]
+    Compare(Compare),
+    /// Render one picture with one technique
+    #[command(after_help = RENDER_EXAMPLES)]
+    Render(Render),
+    /// Time techniques and the ray tracer, without scoring
+    Bench(Bench),
+    /// List techniques with their parameters, ranges, defaults and papers
+    Techniques(List),
+    /// List the built-in scenes
+    Scenes(List),
+    /// Show the graphics adapter, its features, and the fallbacks taken
+    Info(List),
+    /// Print a completion script for a shell
+    Completions {
+        /// The shell
+        shell: Shell,
+    },
+}
+
+const COMPARE_EXAMPLES: &str = "Examples:
+  antumbra compare fence -o report
+  antumbra compare model.glb --size 1024 --kernel 7 --techniques hard pcf esm
+  antumbra compare model.glb --techniques hard esm.c=40 esm.c=80 csm.terms=4
+  antumbra compare model.glb --camera 3,2,5:0,1,0:50 --light 0.3,-1,-0.2
+  antumbra compare model.glb --light spot:0,4,0:0,-1,0:35 --json > results.json";
+
+const RENDER_EXAMPLES: &str = "Examples:
+  antumbra render fence --technique esm.c=60 -o out.png
+  antumbra render model.glb --technique pcf.kernel=7 --show visibility -o visibility.exr
+  antumbra render model.glb --technique truth -o truth.png";
+
+/// The scene and how it is seen.
+#[derive(Debug, Args)]
+pub(crate) struct SceneArguments {
+    /// A .glb, .gltf or .obj file, or the name of a built-in scene (see `antumbra scenes`)
+    #[arg(default_value = "fence")]
+    pub(crate) scene: String,
+    /// Seed of a built-in scene
+    #[arg(long, default_value_t = 1)]
+    pub(crate) seed: u64,
+    /// Eye, target and vertical field of view in degrees, as x,y,z:x,y,z[:degrees], or the number of
+    /// a camera in the file; default: the file's first camera, else one that sees everything
+    #[arg(long, allow_hyphen_values = true, value_name = "CAMERA")]
+    pub(crate) camera: Option<String>,
+    /// Direction of the sun as x,y,z (the way light travels), or spot:x,y,z:x,y,z:degrees (position,
+    /// direction, half angle), or the number of a light in the file; default: the file's first, else
+    /// a sun over the camera's left shoulder
+    #[arg(long, allow_hyphen_values = true, value_name = "LIGHT")]
+    pub(crate) light: Option<String>,
+    /// Pixels across and down
+    #[arg(long, default_value = "1024x768", value_name = "WxH")]
+    pub(crate) resolution: String,
+    /// Texels along one side of the shadow map
+    #[arg(long, default_value_t = 2048, value_name = "TEXELS")]
+    pub(crate) size: u32,
+    /// Kernel width of every technique that has one (unless its spec sets it), and of the
+    /// light-space ideal
+    #[arg(long, default_value_t = 5, value_name = "TEXELS")]
+    pub(crate) kernel: u32,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Compare {
+    #[command(flatten)]
+    pub(crate) scene: SceneArguments,
+    /// Techniques with settings (esm.c=60,kernel=7), or all, all-comparison, all-basis
+    #[arg(long, num_args = 1.., default_value = "all", value_name = "TECHNIQUE")]
+    pub(crate) techniques: Vec<String>,
+    /// Folder of the report; an earlier report there is replaced
+    #[arg(short, long, default_value = "report", value_name = "FOLDER")]
+    pub(crate) output: PathBuf,
+    /// Frames that are timed, per technique
+    #[arg(long, default_value_t = 7)]
+    pub(crate) rounds: u32,
+    /// Rays per pixel of the screen-space ideal, along one side
+    #[arg(long, default_value_t = 4)]
+    pub(crate) grid: u32,
+    /// Print the results as JSON instead of a table
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Render {
+    #[command(flatten)]
+    pub(crate) scene: SceneArguments,
+    /// A technique with settings, or `truth` for ray-traced hard shadows
+    #[arg(long, default_value = "esm", value_name = "TECHNIQUE")]
+    pub(crate) technique: String,
+    /// What to write
+    #[arg(long, value_enum, default_value_t = Show::Picture)]
+    pub(crate) show: Show,
+    /// A .png file, or .exr for raw visibility
+    #[arg(short, long, default_value = "out.png", value_name = "FILE")]
+    pub(crate) output: PathBuf,
+}
+
+/// What a rendering shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Show {
+    /// The shaded picture
+    Picture,
+    /// Visibility, linear grey
+    Visibility,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Bench {
+    #[command(flatten)]
+    pub(crate) scene: SceneArguments,
+    /// Techniques with settings, or all, all-comparison, all-basis
+    #[arg(long, num_args = 1.., default_value = "all", value_name = "TECHNIQUE")]
+    pub(crate) techniques: Vec<String>,
+    /// Frames that are timed, per technique
+    #[arg(long, default_value_t = 15)]
+    pub(crate) rounds: u32,
+    /// Print the times as JSON instead of a table
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct List {
+    /// Print JSON instead of a table
+    #[arg(long)]
+    pub(crate) json: bool,
+}

@@ -1,0 +1,47 @@
+//! What each subcommand does.
+
+use crate::arguments::{Arguments, Command};
+use antumbra::SettingError;
+use anyhow::Result;
+use clap::CommandFactory;
+
+mod bench;
+mod compare;
+mod info;
+mod render;
+mod table;
+
+/// Runs the subcommand.
+pub(crate) fn run(arguments: Arguments) -> Result<()> {
+    match arguments.command {
+        Command::Compare(arguments) => compare::run(&arguments),
+        Command::Render(arguments) => render::run(&arguments),
+        Command::Bench(arguments) => bench::run(&arguments),
+        Command::Techniques(arguments) => info::techniques(arguments.json),
+        Command::Scenes(arguments) => info::scenes(arguments.json),
+        Command::Info(arguments) => info::adapter(arguments.json),
+        Command::Completions { shell } => {
+            clap_complete::generate(shell, &mut Arguments::command(), "antumbra", &mut std::io::stdout());
+            Ok(())
+        }
+    }
+}
+
+/// What was probably meant, for an error about a name.
+pub(crate) fn hint(error: &anyhow::Error) -> Option<String> {
+    let (name, known) = error.chain().find_map(|cause| match cause.downcast_ref::<SettingError>()? {
+        SettingError::UnknownTechnique { name, known }
+        | SettingError::UnknownParameter { name, known, .. } => Some((name, known)),
+        _ => None,
+    })?;
+    nearest(name, known.iter().map(String::as_str)).map(|nearest| format!("did you mean {nearest}?"))
+}
+
+/// The known name that resembles a wrong one most, if any does.
+pub(crate) fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+    known
+        .map(|k| (strsim::jaro_winkler(name, k), k))
+        .filter(|(likeness, _)| *likeness > 0.6)
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, k)| k)
+}

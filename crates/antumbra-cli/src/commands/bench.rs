@@ -1,0 +1,80 @@
+//! `antumbra bench`: times only.
+
+use super::table;
+use crate::{arguments::Bench, progress::Bar, scene};
+use antumbra::{Options, Pipelines, ShadowMap, Size, technique};
+use antumbra_lab::{
+    compare::{self, Progress},
+    gpu::Gpu,
+    lighting::{Lighting, Lookup},
+    stage::Stage,
+    timing::{self, Entrant},
+};
+use antumbra_truth::{CameraRays, Tracer};
+use anyhow::{Result, bail};
+use std::time::Instant;
+
+pub(crate) fn run(arguments: &Bench) -> Result<()> {
+    if arguments.rounds == 0 {
+        bail!("--rounds must be at least 1");
+    }
+    let techniques = compare::techniques(&arguments.techniques, arguments.scene.kernel)?;
+    let setting = scene::load(&arguments.scene)?;
+    let gpu = Gpu::new()?;
+    let stage = Stage::new(&gpu, &setting.geometry, &setting.camera, &setting.light, setting.resolution)?;
+    let lighting = Lighting::new(&gpu, &stage);
+    let pipelines = Pipelines::new(&gpu.device);
+    let mut shadows = Vec::new();
+    for technique in &techniques {
+        let options = Options::from(Size::square(arguments.scene.size)).pipelines(&pipelines);
+        shadows.push(ShadowMap::new(&gpu.device, technique.as_ref(), options)?);
+    }
+    let view = compare::view(&stage, &setting.geometry, &setting.light, &shadows.iter().collect::<Vec<_>>())?;
+    stage.set_view(&gpu, &view);
+    for map in &mut shadows {
+        map.prepare(&gpu.queue, &[view])?;
+    }
+    let unshadowed = Lookup::unshadowed(&gpu, &stage);
+    let lookups: Vec<Lookup> = shadows.iter().map(|map| Lookup::new(&gpu, &stage, map)).collect();
+    let mut entrants = vec![Entrant { shadows: None, lookup: &unshadowed }];
+    entrants.extend(shadows.iter().zip(&lookups).map(|(map, lookup)| Entrant { shadows: Some(map), lookup }));
+    let bar = Bar::new();
+    bar.step("time");
+    let times = timing::race(&gpu, &stage, &lighting, &entrants, arguments.rounds, &|s| bar.share(s))?;
+    bar.step("truth");
+    let start = Instant::now();
+    let rays = CameraRays::new(&setting.camera, setting.resolution[0], setting.resolution[1])?;
+    let hard = Tracer::new(&setting.geometry)?.hard(&rays, &setting.light);
+    let truth = start.elapsed().as_secs_f64();
+    drop(hard);
+    drop(bar);
+    let names =
+        std::iter::once("none".to_string()).chain(techniques.iter().map(|t| technique::spec(t.as_ref())));
+    if arguments.json {
+        let times: serde_json::Map<String, serde_json::Value> = names
+            .zip(&times)
+            .map(|(name, time)| Ok((name, serde_json::to_value(time)?)))
+            .collect::<Result<_>>()?;
+        let all = serde_json::json!({ "truth_hard_seconds": truth, "techniques": times });
+        println!("{}", serde_json::to_string_pretty(&all)?);
+        return Ok(());
+    }
+    const PASSES: [&str; 6] = ["cast", "convert", "blur", "mips", "surfaces", "lookup"];
+    let rows: Vec<Vec<String>> = names
+        .zip(&times)
+        .map(|(name, time)| {
+            let passes = PASSES.map(|p| timing::pass_ms(time, p).map_or("-".into(), |ms| format!("{ms:.2}")));
+            let f = time.frame;
+            std::iter::once(name)
+                .chain(passes)
+                .chain([f.median_ms, f.min_ms, f.max_ms].map(|ms| format!("{ms:.2}")))
+                .collect()
+        })
+        .collect();
+    println!("median milliseconds over {} rounds; frame: wall clock with its extremes", arguments.rounds);
+    let header =
+        ["technique", "cast", "convert", "blur", "mips", "surfaces", "lookup", "frame", "min", "max"];
+    table::print(&header, &rows);
+    println!("ray-traced hard truth, acceleration structure included: {truth:.2} s");
+    Ok(())
+}

@@ -1,0 +1,106 @@
+//! `antumbra techniques`, `scenes` and `info`.
+
+use super::table;
+use antumbra::{ShadowMap, Size, technique};
+use antumbra_lab::{compare, gpu::Gpu};
+use antumbra_scene::procedural;
+use anyhow::Result;
+use serde_json::json;
+
+pub(crate) fn techniques(as_json: bool) -> Result<()> {
+    let mut list = Vec::new();
+    for mut technique in technique::all() {
+        let page = technique.page();
+        let parameters = technique.parameters();
+        if as_json {
+            let parameters: Vec<_> = parameters
+                .iter()
+                .map(|p| {
+                    json!({ "name": p.name, "unit": p.unit, "default": p.value(), "allowed": p.allowed(), "meaning": p.meaning })
+                })
+                .collect();
+            list.push(json!({
+                "name": page.name, "title": page.title, "family": page.family.name(), "paper": page.paper,
+                "parameters": parameters,
+            }));
+            continue;
+        }
+        println!("{}  {} ({}; {})", page.name, page.title, page.family.name(), page.paper);
+        let rows: Vec<Vec<String>> = parameters
+            .iter()
+            .map(|p| {
+                let unit = if p.unit.is_empty() { String::new() } else { format!(" {}", p.unit) };
+                vec![format!("  {}", p.name), format!("{}{unit}", p.value()), p.allowed(), p.meaning.into()]
+            })
+            .collect();
+        if !rows.is_empty() {
+            table::print(&["  parameter", "default", "allowed", "meaning"], &rows);
+        }
+        println!();
+    }
+    if as_json {
+        println!("{}", serde_json::to_string_pretty(&list)?);
+    } else {
+        println!("write a technique with settings as name.parameter=value,parameter=value");
+    }
+    Ok(())
+}
+
+pub(crate) fn scenes(as_json: bool) -> Result<()> {
+    if as_json {
+        let list: Vec<_> = procedural::all()
+            .iter()
+            .map(|p| {
+                json!({ "name": p.name, "triangles": p.triangles, "description": p.description, "stresses": p.stresses, "source": p.source })
+            })
+            .collect();
+        println!("{}", serde_json::to_string_pretty(&list)?);
+        return Ok(());
+    }
+    for p in procedural::all() {
+        println!(
+            "{}  {} triangles\n  {}\n  stresses: {}\n  after: {}\n",
+            p.name, p.triangles, p.description, p.stresses, p.source
+        );
+    }
+    Ok(())
+}
+
+pub(crate) fn adapter(as_json: bool) -> Result<()> {
+    let gpu = Gpu::new()?;
+    let facts = compare::adapter_facts(&gpu);
+    let mut choices = Vec::new();
+    for technique in technique::all() {
+        let shadows = ShadowMap::new(&gpu.device, technique.as_ref(), Size::square(64));
+        let lines = shadows.map_or_else(|reason| vec![reason.to_string()], |map| map.explain());
+        choices.push((technique.page().name, lines));
+    }
+    let missing = gpu.missing_features();
+    if as_json {
+        let choices: serde_json::Map<_, _> =
+            choices.into_iter().map(|(name, lines)| (name.into(), json!(lines))).collect();
+        let all = json!({ "adapter": facts, "missing_features": missing, "choices": choices });
+        println!("{}", serde_json::to_string_pretty(&all)?);
+        return Ok(());
+    }
+    println!(
+        "adapter   {} ({})\ndriver    {}\nbackend   {}",
+        facts.name, facts.device_type, facts.driver, facts.backend
+    );
+    println!("features  {}", facts.features.join(", "));
+    println!("missing   {}", if missing.is_empty() { "none".into() } else { missing.join(", ") });
+    let limits = gpu.device.limits();
+    println!(
+        "limits    maps up to {0}x{0}, {1} layers, {2} bytes per pixel and pass",
+        limits.max_texture_dimension_2d,
+        limits.max_texture_array_layers,
+        limits.max_color_attachment_bytes_per_sample
+    );
+    println!("\nchosen per technique:");
+    for (name, lines) in choices {
+        for line in lines {
+            println!("  {name:<6} {line}");
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,67 @@
+//! `antumbra render`.
+
+use crate::{
+    arguments::{Render, Show},
+    scene,
+};
+use antumbra::{Options, ShadowMap, Size};
+use antumbra_lab::{
+    compare, files,
+    gpu::Gpu,
+    lighting::{Lighting, Lookup},
+    plane::Plane,
+    stage::Stage,
+};
+use antumbra_truth::{CameraRays, Tracer};
+use anyhow::{Context, Result, bail};
+
+pub(crate) fn run(arguments: &Render) -> Result<()> {
+    let extension = arguments.output.extension().and_then(|e| e.to_str()).unwrap_or_default().to_lowercase();
+    match (extension.as_str(), arguments.show) {
+        ("png", _) | ("exr", Show::Visibility) => {}
+        ("exr", Show::Picture) => bail!("EXR holds raw visibility: add --show visibility, or write a .png"),
+        _ => bail!("{}: the output must end in .png or .exr", arguments.output.display()),
+    }
+    let truth = arguments.technique == "truth";
+    let techniques = match truth {
+        true => Vec::new(),
+        false => compare::techniques(std::slice::from_ref(&arguments.technique), arguments.scene.kernel)?,
+    };
+    if techniques.len() > 1 {
+        bail!("--technique {}: render takes one technique", arguments.technique);
+    }
+    let setting = scene::load(&arguments.scene)?;
+    let gpu = Gpu::new()?;
+    let stage = Stage::new(&gpu, &setting.geometry, &setting.camera, &setting.light, setting.resolution)?;
+    let lighting = Lighting::new(&gpu, &stage);
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    stage.encode_surfaces(&mut encoder, None);
+    match techniques.first() {
+        None => {
+            let [width, height] = setting.resolution;
+            let rays = CameraRays::new(&setting.camera, width, height)?;
+            let hard = Tracer::new(&setting.geometry)?.hard(&rays, &setting.light);
+            lighting.write_visibility(&gpu, &Plane::new(width, height, hard.values)?);
+        }
+        Some(technique) => {
+            let size = Options::from(Size::square(arguments.scene.size));
+            let mut shadows = ShadowMap::new(&gpu.device, technique.as_ref(), size)?;
+            let view = compare::view(&stage, &setting.geometry, &setting.light, &[&shadows])?;
+            stage.set_view(&gpu, &view);
+            shadows.prepare(&gpu.queue, &[view])?;
+            let lookup = Lookup::new(&gpu, &stage, &shadows);
+            shadows.encode(&mut encoder, |_, pass| stage.draw_casters(pass));
+            lighting.encode_lookup(&mut encoder, &stage, &lookup, Some(&shadows), None);
+        }
+    }
+    lighting.encode_picture(&mut encoder, &stage);
+    gpu.finish(encoder)?;
+    let bytes = match (extension.as_str(), arguments.show) {
+        ("exr", _) => lighting.read_visibility(&gpu)?.to_exr()?,
+        (_, Show::Visibility) => lighting.read_visibility(&gpu)?.to_gray_png()?,
+        (_, Show::Picture) => lighting.read_picture(&gpu)?.to_png()?,
+    };
+    files::write_atomically(&arguments.output, &bytes).context("nothing was written")?;
+    println!("{}", arguments.output.display());
+    Ok(())
+}

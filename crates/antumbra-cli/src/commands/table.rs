@@ -1,0 +1,28 @@
+//! Plain text tables.
+
+/// Columns padded to their widest cell; numbers, which begin with a digit, to the right.
+pub(crate) fn print(header: &[&str], rows: &[Vec<String>]) {
+    let width = |c: usize| {
+        let cells = rows.iter().filter_map(|r| r.get(c)).map(|cell| cell.chars().count());
+        cells.chain([header[c].chars().count()]).max().unwrap_or(0)
+    };
+    let widths: Vec<usize> = (0..header.len()).map(width).collect();
+    let numeric = |c: usize| {
+        rows.iter()
+            .filter_map(|r| r.get(c))
+            .all(|cell| cell.starts_with(|ch: char| ch.is_ascii_digit() || ch == '-'))
+    };
+    let numeric: Vec<bool> = (0..header.len()).map(numeric).collect();
+    let line = |cells: Vec<&str>| {
+        let padded = cells.iter().enumerate().map(|(c, cell)| match numeric[c] {
+            true => format!("{cell:>0$}", widths[c]),
+            false => format!("{cell:<0$}", widths[c]),
+        });
+        let text = padded.collect::<Vec<_>>().join("  ");
+        println!("{}", text.trim_end());
+    };
+    line(header.to_vec());
+    for row in rows {
+        line(row.iter().map(String::as_str).collect());
+    }
+}

@@ -1,0 +1,159 @@
+//! From surfaces to visibility, and from visibility to a picture.
+
+use crate::{
+    gpu::Gpu,
+    plane::{Plane, Rgba8Image},
+    stage::{Stage, fullscreen, loaded, surfaces::overwrite},
+};
+use antumbra::ShadowMap;
+use anyhow::Result;
+use wgpu::TextureFormat;
+
+const FRAME: &str = include_str!("stage/frame.wgsl");
+
+/// The full-screen pass that asks a shadow map for the visibility of every surface.
+#[derive(Debug)]
+pub struct Lookup {
+    pipeline: wgpu::RenderPipeline,
+}
+
+impl Lookup {
+    /// For one shadow map.
+    #[must_use]
+    pub fn new(gpu: &Gpu, stage: &Stage, shadows: &ShadowMap) -> Self {
+        let user = [FRAME, include_str!("lighting/lookup.wgsl")].concat();
+        let source = shadows.wgsl(1).after(&user);
+        let groups = [&stage.surfaces().layout, shadows.layout()];
+        Self { pipeline: fullscreen(gpu, "lookup", source, &groups, TextureFormat::R32Float) }
+    }
+
+    /// Everything lit: what the pass costs without any lookup.
+    #[must_use]
+    pub fn unshadowed(gpu: &Gpu, stage: &Stage) -> Self {
+        let parts = [FRAME, include_str!("lighting/lookup.wgsl"), include_str!("lighting/unshadowed.wgsl")];
+        let source = wgpu::ShaderSource::Wgsl(parts.concat().into());
+        Self {
+            pipeline: fullscreen(
+                gpu,
+                "unshadowed",
+                source,
+                &[&stage.surfaces().layout],
+                TextureFormat::R32Float,
+            ),
+        }
+    }
+}
+
+/// The visibility buffer (linear, one 32-bit channel) and the picture made from it.
+#[derive(Debug)]
+pub struct Lighting {
+    visibility: wgpu::Texture,
+    visibility_view: wgpu::TextureView,
+    picture: wgpu::Texture,
+    picture_view: wgpu::TextureView,
+    shade: wgpu::RenderPipeline,
+    shade_group: wgpu::BindGroup,
+}
+
+impl Lighting {
+    /// Targets of the stage's resolution.
+    #[must_use]
+    pub fn new(gpu: &Gpu, stage: &Stage) -> Self {
+        let size = stage.surfaces().resolution();
+        let visibility = gpu.target("visibility", size, TextureFormat::R32Float);
+        let picture = gpu.target("picture", size, TextureFormat::Rgba8UnormSrgb);
+        let visibility_view = visibility.create_view(&Default::default());
+        let layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("visibility"),
+            entries: &[loaded(0)],
+        });
+        let shade_group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("visibility"),
+            layout: &layout,
+            entries: &[wgpu::BindGroupEntry {
+                binding: 0,
+                resource: wgpu::BindingResource::TextureView(&visibility_view),
+            }],
+        });
+        let source = wgpu::ShaderSource::Wgsl([FRAME, include_str!("lighting/picture.wgsl")].concat().into());
+        Self {
+            shade: fullscreen(
+                gpu,
+                "picture",
+                source,
+                &[&stage.surfaces().layout, &layout],
+                TextureFormat::Rgba8UnormSrgb,
+            ),
+            picture_view: picture.create_view(&Default::default()),
+            visibility,
+            visibility_view,
+            picture,
+            shade_group,
+        }
+    }
+
+    /// Fills the visibility buffer; `shadows` is `None` for [`Lookup::unshadowed`].
+    pub fn encode_lookup(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        stage: &Stage,
+        lookup: &Lookup,
+        shadows: Option<&ShadowMap>,
+        timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
+    ) {
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("lookup"),
+            color_attachments: &[Some(overwrite(&self.visibility_view))],
+            timestamp_writes: timestamps,
+            ..Default::default()
+        });
+        pass.set_pipeline(&lookup.pipeline);
+        pass.set_bind_group(0, &stage.surfaces().group, &[]);
+        if let Some(shadows) = shadows {
+            pass.set_bind_group(1, shadows.bind_group(), &[]);
+        }
+        pass.draw(0..3, 0..1);
+    }
+
+    /// Shades the picture with what is in the visibility buffer.
+    pub fn encode_picture(&self, encoder: &mut wgpu::CommandEncoder, stage: &Stage) {
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("picture"),
+            color_attachments: &[Some(overwrite(&self.picture_view))],
+            ..Default::default()
+        });
+        pass.set_pipeline(&self.shade);
+        pass.set_bind_group(0, &stage.surfaces().group, &[]);
+        pass.set_bind_group(1, &self.shade_group, &[]);
+        pass.draw(0..3, 0..1);
+    }
+
+    /// The visibility buffer. Waits.
+    ///
+    /// # Errors
+    /// If the device is lost.
+    pub fn read_visibility(&self, gpu: &Gpu) -> Result<Plane> {
+        let bytes = gpu.read(&self.visibility)?;
+        let values = bytes.chunks_exact(4).map(|b| f32::from_ne_bytes([b[0], b[1], b[2], b[3]])).collect();
+        Ok(Plane::new(self.visibility.width(), self.visibility.height(), values)?)
+    }
+
+    /// Replaces the visibility buffer, for pictures of a truth.
+    pub fn write_visibility(&self, gpu: &Gpu, plane: &Plane) {
+        let layout = wgpu::TexelCopyBufferLayout {
+            offset: 0,
+            bytes_per_row: Some(4 * plane.width),
+            rows_per_image: None,
+        };
+        let texels = bytemuck::cast_slice(&plane.values);
+        gpu.queue.write_texture(self.visibility.as_image_copy(), texels, layout, self.visibility.size());
+    }
+
+    /// The picture. Waits.
+    ///
+    /// # Errors
+    /// If the device is lost.
+    pub fn read_picture(&self, gpu: &Gpu) -> Result<Rgba8Image> {
+        Ok(Rgba8Image::new(self.picture.width(), self.picture.height(), gpu.read(&self.picture)?)?)
+    }
+}

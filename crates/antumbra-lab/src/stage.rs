@@ -1,0 +1,308 @@
+//! A scene on the GPU: casters for shadow maps, and the surfaces that a camera sees.
+//!
+//! The camera's surfaces are drawn once into a few targets (position, facet normal, material), and
+//! every technique then shades the same ones. So a technique's lookup is timed alone, and its
+//! receiver gradients come from each surface's own plane and the camera's rays: exact, also where
+//! neighbouring pixels see different things.
+
+use crate::gpu::Gpu;
+use antumbra_scene::{AlphaMode, Camera, Geometry};
+use anyhow::{Context, Result, bail};
+use bytemuck::{Pod, Zeroable};
+use glam::{Mat4, Vec3, camera::rh};
+use wgpu::{RenderPass, TextureFormat, TextureView};
+
+mod materials;
+mod pipelines;
+pub(crate) mod surfaces;
+
+use materials::Materials;
+use pipelines::Pipelines;
+pub(crate) use pipelines::fullscreen;
+pub use surfaces::Surfaces;
+
+/// Normal, texture coordinates, colour of a vertex.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+struct Attributes {
+    normal: [f32; 3],
+    uv: [f32; 2],
+    color: [f32; 4],
+}
+
+/// Rust side of `Frame` in `stage/frame.wgsl`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub(crate) struct Frame {
+    /// Camera matrix; world positions are taken relative to the eye first, for precision.
+    clip_from_relative: [[f32; 4]; 4],
+    eye: [f32; 4],
+    /// Ray through picture coordinates (0, 0), and what it gains per pixel to the right and down.
+    ray: [f32; 4],
+    ray_right: [f32; 4],
+    ray_down: [f32; 4],
+    /// Towards the light; w = 1 for a spot's position.
+    to_light: [f32; 4],
+    /// Cosine of a spot's half angle; −2 for the sun.
+    cone: [f32; 4],
+}
+
+impl Frame {
+    fn new(camera: &Camera, [width, height]: [u32; 2], near: f32) -> (Self, Mat4) {
+        let aspect = width as f32 / height as f32;
+        let forward = (camera.target - camera.position).normalize();
+        let right = forward.cross(camera.up).normalize();
+        let up = right.cross(forward);
+        let tangent = (camera.fov_y / 2.0).tan();
+        // Reversed depth keeps precision far away.
+        let lens = rh::proj::directx::perspective_infinite_reverse(camera.fov_y, aspect, near);
+        let turn = rh::view::look_to_mat4(Vec3::ZERO, forward, up);
+        let matrix = lens * turn;
+        let frame = Self {
+            clip_from_relative: matrix.to_cols_array_2d(),
+            eye: camera.position.extend(1.0).to_array(),
+            ray: (forward - right * (tangent * aspect) + up * tangent).extend(0.0).to_array(),
+            ray_right: (right * (2.0 * tangent * aspect / width as f32)).extend(0.0).to_array(),
+            ray_down: (up * (-2.0 * tangent / height as f32)).extend(0.0).to_array(),
+            to_light: [0.0; 4],
+            cone: [-2.0; 4],
+        };
+        (frame, matrix * Mat4::from_translation(-camera.position))
+    }
+}
+
+/// Geometry, materials and pipelines of one scene.
+#[derive(Debug)]
+pub struct Stage {
+    positions: wgpu::Buffer,
+    attributes: wgpu::Buffer,
+    indices: wgpu::Buffer,
+    /// Ranges of indices and material numbers; opaque ones first.
+    groups: Vec<(usize, std::ops::Range<u32>, bool)>,
+    materials: Materials,
+    pipelines: Pipelines,
+    camera_matrix: Mat4,
+    frame: Frame,
+    frame_group: wgpu::BindGroup,
+    light_buffer: wgpu::Buffer,
+    light_group: wgpu::BindGroup,
+    surfaces: Surfaces,
+}
+
+impl Stage {
+    /// Uploads a scene and prepares the pictures of one camera under one light.
+    ///
+    /// # Errors
+    /// Resolution of zero or beyond the device's limit, too much geometry, lost device.
+    pub fn new(
+        gpu: &Gpu,
+        geometry: &Geometry,
+        camera: &Camera,
+        light: &antumbra_scene::Light,
+        resolution: [u32; 2],
+    ) -> Result<Self> {
+        let limits = gpu.device.limits();
+        let [width, height] = resolution;
+        let most = limits.max_texture_dimension_2d;
+        if !(1..=most).contains(&width) || !(1..=most).contains(&height) {
+            bail!("resolution {width}x{height} is not possible; each side must be 1 to {most}");
+        }
+        let bounds = geometry.bounds().context("the scene has no triangles")?;
+        let attributes: Vec<Attributes> = (0..geometry.positions.len())
+            .map(|i| Attributes {
+                normal: geometry.normals[i].to_array(),
+                uv: geometry.uvs[i].to_array(),
+                color: geometry.colors[i].to_array(),
+            })
+            .collect();
+        let bytes = std::mem::size_of_val(attributes.as_slice()) as u64;
+        if bytes > limits.max_buffer_size {
+            bail!(
+                "{} vertices need a buffer of {bytes} bytes; the device allows {}",
+                attributes.len(),
+                limits.max_buffer_size
+            );
+        }
+        let (mut frame, camera_matrix) = Frame::new(camera, resolution, bounds.radius().max(1e-3) * 1e-4);
+        (frame.to_light, frame.cone[0]) = match *light {
+            antumbra_scene::Light::Directional { direction } => ((-direction).extend(0.0).to_array(), -2.0),
+            antumbra_scene::Light::Spot { position, outer_angle, .. } => {
+                (position.extend(1.0).to_array(), outer_angle.cos())
+            }
+        };
+        if let antumbra_scene::Light::Spot { direction, .. } = *light {
+            frame.cone[1..].copy_from_slice(&direction.normalize().to_array());
+        }
+        let materials = Materials::new(gpu, geometry)?;
+        let pipelines = Pipelines::new(gpu, &materials.layout);
+        use wgpu::BufferUsages as Usage;
+        let frame_buffer = gpu.buffer("frame", bytemuck::bytes_of(&frame), Usage::UNIFORM);
+        let light_buffer = gpu.buffer("light", &[0; 64], Usage::UNIFORM);
+        let uniform = |buffer: &wgpu::Buffer| {
+            gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: Some("uniform"),
+                layout: &pipelines.uniform,
+                entries: &[wgpu::BindGroupEntry { binding: 0, resource: buffer.as_entire_binding() }],
+            })
+        };
+        let masked = |m: usize| matches!(geometry.materials[m].alpha, AlphaMode::Mask { .. });
+        Ok(Self {
+            positions: gpu.buffer("positions", bytemuck::cast_slice(&geometry.positions), Usage::VERTEX),
+            attributes: gpu.buffer("attributes", bytemuck::cast_slice(&attributes), Usage::VERTEX),
+            indices: gpu.buffer("indices", bytemuck::cast_slice(&geometry.indices), Usage::INDEX),
+            groups: geometry.groups.iter().map(|(m, r)| (*m, 3 * r.start..3 * r.end, masked(*m))).collect(),
+            frame_group: uniform(&frame_buffer),
+            light_group: uniform(&light_buffer),
+            surfaces: Surfaces::new(gpu, resolution, &frame_buffer),
+            materials,
+            pipelines,
+            camera_matrix,
+            frame,
+            light_buffer,
+        })
+    }
+
+    /// World to clip space of the camera, reversed infinite depth: for fitting light views.
+    #[must_use]
+    pub fn camera_matrix(&self) -> Mat4 {
+        self.camera_matrix
+    }
+
+    /// What the camera sees.
+    #[must_use]
+    pub fn surfaces(&self) -> &Surfaces {
+        &self.surfaces
+    }
+
+    /// Tells the casters' shader where the light looks from; before encoding.
+    pub fn set_view(&self, gpu: &Gpu, view: &antumbra::View) {
+        gpu.queue.write_buffer(
+            &self.light_buffer,
+            0,
+            bytemuck::bytes_of(&view.clip_from_world.to_cols_array()),
+        );
+    }
+
+    /// Draws every caster into a shadow map's pass. Opaque ones first, in one draw.
+    pub fn draw_casters(&self, pass: &mut RenderPass<'_>) {
+        pass.set_vertex_buffer(0, self.positions.slice(..));
+        pass.set_vertex_buffer(1, self.attributes.slice(..));
+        pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
+        pass.set_bind_group(0, &self.light_group, &[]);
+        let opaque = self.groups.iter().filter(|g| !g.2).map(|g| g.1.end).max().unwrap_or(0);
+        if opaque > 0 {
+            pass.set_pipeline(&self.pipelines.caster);
+            pass.draw_indexed(0..opaque, 0, 0..1);
+        }
+        pass.set_pipeline(&self.pipelines.masked_caster);
+        for (material, range, _) in self.groups.iter().filter(|g| g.2) {
+            pass.set_bind_group(1, &self.materials.groups[*material], &[]);
+            pass.draw_indexed(range.clone(), 0, 0..1);
+        }
+    }
+
+    /// Draws what the camera sees into [`surfaces`](Self::surfaces).
+    pub fn encode_surfaces(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
+    ) {
+        let mut pass = self.surfaces.begin(encoder, timestamps);
+        pass.set_vertex_buffer(0, self.positions.slice(..));
+        pass.set_vertex_buffer(1, self.attributes.slice(..));
+        pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
+        pass.set_bind_group(0, &self.frame_group, &[]);
+        for (material, range, masked) in &self.groups {
+            pass.set_pipeline(if *masked { &self.pipelines.masked_surface } else { &self.pipelines.surface });
+            pass.set_bind_group(1, &self.materials.groups[*material], &[]);
+            pass.draw_indexed(range.clone(), 0, 0..1);
+        }
+    }
+
+    /// The number of the triangle that the rasteriser shows in each pixel, row by row;
+    /// `u32::MAX` for background. For the coverage check; waits.
+    ///
+    /// # Errors
+    /// If the device is lost.
+    pub fn triangle_numbers(&self, gpu: &Gpu, geometry: &Geometry) -> Result<Vec<u32>> {
+        // Without an index buffer the number of a vertex tells its triangle on every device.
+        let corner = |i: &u32| *i as usize;
+        let positions: Vec<Vec3> = geometry.indices.iter().map(|i| geometry.positions[corner(i)]).collect();
+        let attributes: Vec<Attributes> = geometry
+            .indices
+            .iter()
+            .map(|i| Attributes {
+                normal: [0.0; 3],
+                uv: geometry.uvs[corner(i)].to_array(),
+                color: geometry.colors[corner(i)].to_array(),
+            })
+            .collect();
+        let positions = gpu.buffer("corners", bytemuck::cast_slice(&positions), wgpu::BufferUsages::VERTEX);
+        let attributes = gpu.buffer("corners", bytemuck::cast_slice(&attributes), wgpu::BufferUsages::VERTEX);
+        let size = self.surfaces.resolution();
+        let numbers = gpu.target("triangle numbers", size, TextureFormat::R32Uint);
+        let depth = gpu.target("depth", size, TextureFormat::Depth32Float);
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        {
+            let mut pass = surfaces::begin(
+                &mut encoder,
+                &[&numbers.create_view(&Default::default())],
+                &depth.create_view(&Default::default()),
+                None,
+            );
+            pass.set_vertex_buffer(0, positions.slice(..));
+            pass.set_vertex_buffer(1, attributes.slice(..));
+            pass.set_bind_group(0, &self.frame_group, &[]);
+            for (material, range, masked) in &self.groups {
+                pass.set_pipeline(if *masked {
+                    &self.pipelines.masked_number
+                } else {
+                    &self.pipelines.number
+                });
+                pass.set_bind_group(1, &self.materials.groups[*material], &[]);
+                pass.draw(range.clone(), 0..1);
+            }
+        }
+        gpu.finish(encoder)?;
+        // The target is cleared to 0, so numbers are stored plus one.
+        let bytes = gpu.read(&numbers)?;
+        let words = bytes.chunks_exact(4).map(|b| u32::from_ne_bytes([b[0], b[1], b[2], b[3]]));
+        Ok(words.map(|n| n.wrapping_sub(1)).collect())
+    }
+
+    /// For tests of the uniform layout.
+    #[must_use]
+    pub fn frame_bytes(&self) -> &[u8] {
+        bytemuck::bytes_of(&self.frame)
+    }
+}
+
+/// Layout entry of a texture that is loaded, not sampled.
+pub(crate) fn loaded(binding: u32) -> wgpu::BindGroupLayoutEntry {
+    wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::FRAGMENT,
+        ty: wgpu::BindingType::Texture {
+            sample_type: wgpu::TextureSampleType::Float { filterable: false },
+            view_dimension: wgpu::TextureViewDimension::D2,
+            multisampled: false,
+        },
+        count: None,
+    }
+}
+
+/// Layout entry of a uniform buffer.
+pub(crate) fn uniform(binding: u32) -> wgpu::BindGroupLayoutEntry {
+    wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
+        ty: wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Uniform,
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        },
+        count: None,
+    }
+}
+
+pub(crate) type Target = TextureView;

@@ -1,0 +1,161 @@
+//! The pipelines that draw geometry.
+
+use super::{Attributes, surfaces, uniform};
+use crate::gpu::Gpu;
+use antumbra::Capabilities;
+use wgpu::{BindGroupLayout, RenderPipeline, TextureFormat, VertexFormat};
+
+/// Pipelines for casters and for what the camera sees. Nothing is culled anywhere, as for rays.
+#[derive(Debug)]
+pub(super) struct Pipelines {
+    pub(super) uniform: BindGroupLayout,
+    pub(super) caster: RenderPipeline,
+    pub(super) masked_caster: RenderPipeline,
+    pub(super) surface: RenderPipeline,
+    pub(super) masked_surface: RenderPipeline,
+    pub(super) number: RenderPipeline,
+    pub(super) masked_number: RenderPipeline,
+}
+
+/// What differs between the pipelines.
+struct Recipe<'a> {
+    module: &'a wgpu::ShaderModule,
+    vertex: &'a str,
+    fragment: Option<&'a str>,
+    formats: &'a [TextureFormat],
+    compare: wgpu::CompareFunction,
+    unclipped_depth: bool,
+}
+
+impl Pipelines {
+    pub(super) fn new(gpu: &Gpu, material: &BindGroupLayout) -> Self {
+        let uniform = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("uniform"),
+            entries: &[uniform(0)],
+        });
+        let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some("geometry"),
+            bind_group_layouts: &[Some(&uniform), Some(material)],
+            immediate_size: 0,
+        });
+        let stage = wgsl(gpu, "stage", &[include_str!("frame.wgsl"), include_str!("stage.wgsl")]);
+        let caster = wgsl(
+            gpu,
+            "caster",
+            &[include_str!("frame.wgsl"), antumbra::CASTER_WGSL, include_str!("caster.wgsl")],
+        );
+        let clamps = Capabilities::of(&gpu.device).clamps_depth();
+        let cast = |vertex, fragment| Recipe {
+            module: &caster,
+            vertex,
+            fragment,
+            formats: &[],
+            compare: wgpu::CompareFunction::Less,
+            unclipped_depth: clamps,
+        };
+        let see = |fragment, formats| Recipe {
+            module: &stage,
+            vertex: "surface_vertex",
+            fragment: Some(fragment),
+            formats,
+            compare: wgpu::CompareFunction::Greater,
+            unclipped_depth: false,
+        };
+        let [plain, masked] =
+            if clamps { ["clamped", "masked_clamped"] } else { ["pancaked", "masked_pancaked"] };
+        let make = |recipe: Recipe<'_>| pipeline(gpu, &layout, &recipe);
+        Self {
+            caster: make(cast(plain, None)),
+            masked_caster: make(cast(masked, Some("cutout"))),
+            surface: make(see("surface", &surfaces::FORMATS)),
+            masked_surface: make(see("masked_surface", &surfaces::FORMATS)),
+            number: make(see("number", &[TextureFormat::R32Uint])),
+            masked_number: make(see("masked_number", &[TextureFormat::R32Uint])),
+            uniform,
+        }
+    }
+}
+
+fn wgsl(gpu: &Gpu, label: &str, parts: &[&str]) -> wgpu::ShaderModule {
+    gpu.shader(label, wgpu::ShaderSource::Wgsl(parts.concat().into()))
+}
+
+fn pipeline(gpu: &Gpu, layout: &wgpu::PipelineLayout, recipe: &Recipe<'_>) -> RenderPipeline {
+    let attribute =
+        |shader_location, offset, format| wgpu::VertexAttribute { format, offset, shader_location };
+    let positions = [attribute(0, 0, VertexFormat::Float32x3)];
+    let attributes = [
+        attribute(1, 0, VertexFormat::Float32x3),
+        attribute(2, 12, VertexFormat::Float32x2),
+        attribute(3, 20, VertexFormat::Float32x4),
+    ];
+    let buffer = |array_stride, attributes| {
+        Some(wgpu::VertexBufferLayout { array_stride, step_mode: wgpu::VertexStepMode::Vertex, attributes })
+    };
+    let targets: Vec<_> = recipe.formats.iter().map(|f| Some(wgpu::ColorTargetState::from(*f))).collect();
+    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some(recipe.fragment.unwrap_or(recipe.vertex)),
+        layout: Some(layout),
+        vertex: wgpu::VertexState {
+            module: recipe.module,
+            entry_point: Some(recipe.vertex),
+            compilation_options: Default::default(),
+            buffers: &[buffer(12, &positions), buffer(size_of::<Attributes>() as u64, &attributes)],
+        },
+        primitive: wgpu::PrimitiveState { unclipped_depth: recipe.unclipped_depth, ..Default::default() },
+        depth_stencil: Some(wgpu::DepthStencilState {
+            format: antumbra::DEPTH_FORMAT,
+            depth_write_enabled: Some(true),
+            depth_compare: Some(recipe.compare),
+            stencil: Default::default(),
+            bias: Default::default(),
+        }),
+        multisample: Default::default(),
+        fragment: recipe.fragment.map(|entry| wgpu::FragmentState {
+            module: recipe.module,
+            entry_point: Some(entry),
+            compilation_options: Default::default(),
+            targets: &targets,
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}
+
+/// A full-screen pipeline with entry points `vertex` and `fragment`.
+pub(crate) fn fullscreen(
+    gpu: &Gpu,
+    label: &str,
+    source: wgpu::ShaderSource<'_>,
+    groups: &[&BindGroupLayout],
+    format: TextureFormat,
+) -> RenderPipeline {
+    let module = gpu.shader(label, source);
+    let groups: Vec<_> = groups.iter().map(|g| Some(*g)).collect();
+    let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some(label),
+        bind_group_layouts: &groups,
+        immediate_size: 0,
+    });
+    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some(label),
+        layout: Some(&layout),
+        vertex: wgpu::VertexState {
+            module: &module,
+            entry_point: Some("vertex"),
+            compilation_options: Default::default(),
+            buffers: &[],
+        },
+        primitive: Default::default(),
+        depth_stencil: None,
+        multisample: Default::default(),
+        fragment: Some(wgpu::FragmentState {
+            module: &module,
+            entry_point: Some("fragment"),
+            compilation_options: Default::default(),
+            targets: &[Some(format.into())],
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}

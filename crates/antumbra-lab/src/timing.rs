@@ -1,0 +1,195 @@
+//! Times of passes and frames.
+//!
+//! Render passes are timed by the GPU's timestamps where it has them, which include neither
+//! recording nor submission; whole frames by the wall clock from submission to completion.
+//! Techniques take turns, round after round, so that a disturbance of the machine hits all of them.
+
+use crate::{
+    gpu::Gpu,
+    lighting::{Lighting, Lookup},
+    results::{PassTime, Spread, TimeMethod, TimeResult},
+    stage::Stage,
+};
+use antumbra::{Probe, ShadowMap};
+use anyhow::Result;
+use std::time::Instant;
+
+/// Most passes of one frame that are timed; the rest is summed up under the last name.
+const MOST_PASSES: u32 = 1024;
+
+/// Timestamps around each pass of a frame.
+#[derive(Debug)]
+struct Stopwatch {
+    /// `None` if the device has no timestamps.
+    queries: Option<(wgpu::QuerySet, wgpu::Buffer, wgpu::Buffer)>,
+    labels: Vec<&'static str>,
+}
+
+impl Stopwatch {
+    fn new(gpu: &Gpu) -> Self {
+        let timed = gpu.device.features().contains(wgpu::Features::TIMESTAMP_QUERY);
+        let queries = timed.then(|| {
+            let set = gpu.device.create_query_set(&wgpu::QuerySetDescriptor {
+                label: Some("timestamps"),
+                ty: wgpu::QueryType::Timestamp,
+                count: 2 * MOST_PASSES,
+            });
+            let buffer = |usage| {
+                gpu.device.create_buffer(&wgpu::BufferDescriptor {
+                    label: Some("timestamps"),
+                    size: 16 * u64::from(MOST_PASSES),
+                    usage,
+                    mapped_at_creation: false,
+                })
+            };
+            use wgpu::BufferUsages as Usage;
+            (set, buffer(Usage::QUERY_RESOLVE | Usage::COPY_SRC), buffer(Usage::COPY_DST | Usage::MAP_READ))
+        });
+        Self { queries, labels: Vec::with_capacity(MOST_PASSES as usize) }
+    }
+
+    fn resolve(&self, encoder: &mut wgpu::CommandEncoder) {
+        if let Some((set, resolved, staging)) = &self.queries {
+            let count = 2 * self.labels.len() as u32;
+            encoder.resolve_query_set(set, 0..count, resolved, 0);
+            encoder.copy_buffer_to_buffer(resolved, 0, staging, 0, 8 * u64::from(count));
+        }
+    }
+
+    /// Milliseconds per label, in order of first appearance.
+    fn read(&self, gpu: &Gpu) -> Result<Vec<(&'static str, f64)>> {
+        let Some((_, _, staging)) = &self.queries else { return Ok(Vec::new()) };
+        let bytes = gpu.map(staging)?;
+        let stamps: Vec<u64> =
+            bytes.chunks_exact(8).filter_map(|b| b.try_into().ok()).map(u64::from_ne_bytes).collect();
+        let period = f64::from(gpu.queue.get_timestamp_period()) * 1e-6;
+        let mut sums: Vec<(&'static str, f64)> = Vec::new();
+        for (label, pair) in self.labels.iter().zip(stamps.chunks_exact(2)) {
+            let ms = pair[1].saturating_sub(pair[0]) as f64 * period;
+            match sums.iter_mut().find(|(name, _)| name == label) {
+                Some((_, sum)) => *sum += ms,
+                None => sums.push((label, ms)),
+            }
+        }
+        Ok(sums)
+    }
+}
+
+impl Probe for Stopwatch {
+    fn pass(&mut self, label: &'static str, _: usize) -> Option<wgpu::RenderPassTimestampWrites<'_>> {
+        let (set, ..) = self.queries.as_ref()?;
+        let index = 2 * self.labels.len() as u32;
+        if index + 2 > 2 * MOST_PASSES {
+            return None;
+        }
+        self.labels.push(label);
+        Some(wgpu::RenderPassTimestampWrites {
+            query_set: set,
+            beginning_of_pass_write_index: Some(index),
+            end_of_pass_write_index: Some(index + 1),
+        })
+    }
+}
+
+/// What one entrant of a race looks like: `None` shades without any shadow.
+#[derive(Debug, Clone, Copy)]
+pub struct Entrant<'a> {
+    /// The shadow map, prepared.
+    pub shadows: Option<&'a ShadowMap>,
+    /// Its lookup pass.
+    pub lookup: &'a Lookup,
+}
+
+/// All samples of one entrant.
+#[derive(Debug, Default)]
+struct Samples {
+    frame: Vec<f64>,
+    passes: Vec<(&'static str, Vec<f64>)>,
+}
+
+/// Times whole frames (cast, filter, surfaces, lookup) of all entrants in turns. The first round
+/// warms up and does not count. `progress` hears shares in (0,1].
+///
+/// # Errors
+/// If the device is lost.
+pub fn race(
+    gpu: &Gpu,
+    stage: &Stage,
+    lighting: &Lighting,
+    entrants: &[Entrant<'_>],
+    rounds: u32,
+    progress: &dyn Fn(f32),
+) -> Result<Vec<TimeResult>> {
+    let mut stopwatch = Stopwatch::new(gpu);
+    let mut samples: Vec<Samples> = entrants.iter().map(|_| Samples::default()).collect();
+    for round in 0..=rounds {
+        for (entrant, samples) in entrants.iter().zip(&mut samples) {
+            let (frame, passes) = frame(gpu, stage, lighting, *entrant, &mut stopwatch)?;
+            if round > 0 {
+                samples.frame.push(frame);
+                for (name, ms) in passes {
+                    match samples.passes.iter_mut().find(|(n, _)| *n == name) {
+                        Some((_, all)) => all.push(ms),
+                        None => samples.passes.push((name, vec![ms])),
+                    }
+                }
+            }
+        }
+        progress((round + 1) as f32 / (rounds + 1) as f32);
+    }
+    Ok(samples.iter().map(|s| s.result(rounds)).collect())
+}
+
+/// One frame: wall milliseconds, and milliseconds per pass.
+fn frame(
+    gpu: &Gpu,
+    stage: &Stage,
+    lighting: &Lighting,
+    entrant: Entrant<'_>,
+    stopwatch: &mut Stopwatch,
+) -> Result<(f64, Vec<(&'static str, f64)>)> {
+    stopwatch.labels.clear();
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    if let Some(shadows) = entrant.shadows {
+        shadows.encode_probed(&mut encoder, stopwatch, |_, pass| stage.draw_casters(pass));
+    }
+    stage.encode_surfaces(&mut encoder, stopwatch.pass("surfaces", 0));
+    let timestamps = stopwatch.pass("lookup", 0);
+    lighting.encode_lookup(&mut encoder, stage, entrant.lookup, entrant.shadows, timestamps);
+    stopwatch.resolve(&mut encoder);
+    let start = Instant::now();
+    gpu.finish(encoder)?;
+    let wall = start.elapsed().as_secs_f64() * 1e3;
+    Ok((wall, stopwatch.read(gpu)?))
+}
+
+impl Samples {
+    fn result(&self, rounds: u32) -> TimeResult {
+        let pass = |(name, ms): &(&'static str, Vec<f64>)| {
+            let Spread { median_ms, min_ms, max_ms } = spread(ms);
+            let method = TimeMethod::Timestamps;
+            PassTime { name: (*name).into(), median_ms, min_ms, max_ms, cpu_ms: None, method }
+        };
+        TimeResult {
+            passes: self.passes.iter().map(pass).collect(),
+            frame: spread(&self.frame),
+            rounds,
+            lookup_ratio_to_hard: None,
+            frame_ratio_to_hard: None,
+        }
+    }
+}
+
+/// Median and extremes; zeros of nothing.
+fn spread(samples: &[f64]) -> Spread {
+    let mut sorted = samples.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let at = |i: usize| sorted.get(i).copied().unwrap_or(0.0);
+    Spread { median_ms: at(sorted.len() / 2), min_ms: at(0), max_ms: at(sorted.len().saturating_sub(1)) }
+}
+
+/// Median of a pass, if it was timed.
+#[must_use]
+pub fn pass_ms(time: &TimeResult, name: &str) -> Option<f64> {
+    time.passes.iter().find(|p| p.name == name).map(|p| p.median_ms)
+}
