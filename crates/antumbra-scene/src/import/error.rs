@@ -79,14 +79,6 @@ pub enum Problem {
         /// What the decoder said.
         message: String,
     },
-    /// The OBJ or MTL parser gave up.
-    #[error("{element}: {source}")]
-    Obj {
-        /// "geometry" or the name of the material library.
-        element: String,
-        /// What it said.
-        source: tobj::LoadError,
-    },
     /// The file was read, but the scene in it cannot be used.
     #[error(transparent)]
     Scene(#[from] SceneError),
