@@ -3,17 +3,19 @@
 //! s_f(x) = Σ_q w(q) f(d(x), z(p − q)) (Annen et al. 2007, Eq. 4), with z from rays: for every offset
 //! q of the kernel, is the light's path at p − q blocked before it reaches the receiver?
 //!
-//! **Which receiver depth?** Eq. 3 of the same paper compares with d(y), y being the point that
-//! projects to p − q. Keeping d(x) instead would put half of every tilted lit plane into its own
-//! shadow. Here y is the point of the receiver's *tangent plane*, through x with the geometric
-//! normal. On flat ground that is the surface; on a convex one y floats outside and is as lit as x;
-//! in a concave one y lies below the neighbouring surface, which then counts as a blocker.
+//! **Which receiver depth?** Eq. 4 keeps d(x) for all q, which would put half of every tilted lit
+//! plane into its own shadow: the half of the kernel that lies uphill, nearer to the light. Eq. 3
+//! compares with d(y), y being the surface's point that projects to p − q. Here uphill samples are
+//! lifted onto the receiver's *tangent plane*, through x with the geometric normal, and downhill
+//! ones keep d(x): the smaller of the two depths. Following the plane downhill too would let it dive
+//! under whatever it meets, and so darken a lit wall along the floor.
 //!
 //! **Grazing light.** The farther the plane tilts from the light, the farther apart lie the points
 //! that neighbouring texels see. Beyond a depth change of [`STEEPEST`] per lateral unit (light at
 //! less than 0.9° to the plane), or where the plane of a spot's receiver would leave the range from
 //! ⅔ to 2 times the receiver's depth, the kernel is compressed along the slope just so far that the
-//! limit holds. So every y stays finite and exactly on the plane, and no lit plane shadows itself.
+//! limit holds. So every sample stays finite and on or above the plane, and no lit plane shadows
+//! itself.
 
 use crate::kernel::scramble;
 use crate::shadow::{Progress, is_shadowable, to_light};
@@ -30,12 +32,13 @@ const FEW: u32 = 64;
 /// Samples of a pixel in or beside a penumbra.
 const MANY: u32 = 256;
 
-/// The point of a receiver's tangent plane that an offset in the map sees.
+/// The point that an offset in the map compares with: on the receiver's tangent plane, or at its
+/// depth where the plane is deeper.
 #[derive(Debug, Clone, Copy)]
 enum Footprint {
-    /// position + a·right + b·down, both on the plane.
-    Parallel { position: DVec3, right: DVec3, down: DVec3 },
-    /// apex + depth/(1 + slope·(a, b)) · (axis + a·right + b·down).
+    /// position + a·right + b·down + max(rise·(a, b), 0)·toward.
+    Parallel { position: DVec3, right: DVec3, down: DVec3, rise: DVec2, toward: DVec3 },
+    /// apex + depth/(1 + max(slope·(a, b), 0)) · (axis + a·right + b·down).
     Central { apex: DVec3, depth: f64, axis: DVec3, right: DVec3, down: DVec3, slope: DVec2 },
 }
 
@@ -50,8 +53,9 @@ impl Footprint {
                 // Sliding along the light brings an offset back onto the plane.
                 let slide = -across / hit.normal.dot(toward);
                 let [(a, a_slide), (b, b_slide)] = compress(slide, lengths, STEEPEST);
-                let place = |(x, y): (f64, f64), slide: f64| x * right + y * down + slide * toward;
-                Self::Parallel { position: hit.position, right: place(a, a_slide), down: place(b, b_slide) }
+                let place = |(x, y): (f64, f64)| x * right + y * down;
+                let rise = DVec2::new(a_slide, b_slide);
+                Self::Parallel { position: hit.position, right: place(a), down: place(b), rise, toward }
             }
             Light::Spot { position, direction, .. } => {
                 let apex = position.as_dvec3();
@@ -70,9 +74,11 @@ impl Footprint {
 
     fn point(&self, offset: DVec2) -> DVec3 {
         match *self {
-            Self::Parallel { position, right, down } => position + offset.x * right + offset.y * down,
+            Self::Parallel { position, right, down, rise, toward } => {
+                position + offset.x * right + offset.y * down + rise.dot(offset).max(0.0) * toward
+            }
             Self::Central { apex, depth, axis, right, down, slope } => {
-                let depth = depth / (1.0 + slope.dot(offset));
+                let depth = depth / (1.0 + slope.dot(offset).max(0.0));
                 apex + depth * (axis + offset.x * right + offset.y * down)
             }
         }

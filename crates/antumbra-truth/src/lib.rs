@@ -27,16 +27,13 @@
 //! # The light-space ideal
 //!
 //! s_f(x) = Σ_q w(q) f(d, z(p − q)) (Annen et al. 2007, Eq. 4) with z from rays: the share of the
-//! kernel's offsets q whose light path reaches the receiver. The receiver's depth is that of its
-//! *tangent plane* at p − q (the d(y) of Eq. 3), not d(x), with which half of every tilted lit plane
-//! would be in its own shadow. The price: where other surfaces rise above the tangent plane it counts
-//! them as blockers. A lit wall darkens within a kernel's width of the floor, and so do facets that
-//! the light grazes, whose planes soon dive under something.
+//! kernel's offsets q whose light path reaches the receiver. The receiver's depth is d(x), or that of
+//! its *tangent plane* at p − q where that is nearer to the light: with d(x) alone half of every
+//! tilted lit plane would be in its own shadow.
 //!
 //! Beyond a depth change of 64 per lateral unit (light at less than 0.9° to the plane), or where the
 //! plane of a spot's receiver would leave the range from ⅔ to 2 times the receiver's depth, the
-//! kernel is compressed along the slope to that limit, so that all its points stay on the plane and
-//! finite.
+//! kernel is compressed along the slope to that limit, so that all its points stay finite.
 //!
 //! # Precision
 //!

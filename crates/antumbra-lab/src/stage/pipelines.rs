@@ -19,6 +19,9 @@ pub(super) struct Pipelines {
 
 /// What differs between the pipelines.
 struct Recipe<'a> {
+    layout: &'a wgpu::PipelineLayout,
+    /// 1: positions alone; 2: with attributes.
+    vertex_buffers: usize,
     module: &'a wgpu::ShaderModule,
     vertex: &'a str,
     fragment: Option<&'a str>,
@@ -33,11 +36,14 @@ impl Pipelines {
             label: Some("uniform"),
             entries: &[uniform(0)],
         });
-        let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some("geometry"),
-            bind_group_layouts: &[Some(&uniform), Some(material)],
-            immediate_size: 0,
-        });
+        let layout = |groups: &[Option<&BindGroupLayout>]| {
+            gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                label: Some("geometry"),
+                bind_group_layouts: groups,
+                immediate_size: 0,
+            })
+        };
+        let (bare, full) = (layout(&[Some(&uniform)]), layout(&[Some(&uniform), Some(material)]));
         let stage = wgsl(gpu, "stage", &[include_str!("frame.wgsl"), include_str!("stage.wgsl")]);
         let caster = wgsl(
             gpu,
@@ -45,7 +51,9 @@ impl Pipelines {
             &[include_str!("frame.wgsl"), antumbra::CASTER_WGSL, include_str!("caster.wgsl")],
         );
         let clamps = Capabilities::of(&gpu.device).clamps_depth();
-        let cast = |vertex, fragment| Recipe {
+        let cast = |vertex, fragment: Option<&'static str>| Recipe {
+            layout: if fragment.is_some() { &full } else { &bare },
+            vertex_buffers: if fragment.is_some() { 2 } else { 1 },
             module: &caster,
             vertex,
             fragment,
@@ -54,6 +62,8 @@ impl Pipelines {
             unclipped_depth: clamps,
         };
         let see = |fragment, formats| Recipe {
+            layout: &full,
+            vertex_buffers: 2,
             module: &stage,
             vertex: "surface_vertex",
             fragment: Some(fragment),
@@ -63,7 +73,7 @@ impl Pipelines {
         };
         let [plain, masked] =
             if clamps { ["clamped", "masked_clamped"] } else { ["pancaked", "masked_pancaked"] };
-        let make = |recipe: Recipe<'_>| pipeline(gpu, &layout, &recipe);
+        let make = |recipe: Recipe<'_>| pipeline(gpu, &recipe);
         Self {
             caster: make(cast(plain, None)),
             masked_caster: make(cast(masked, Some("cutout"))),
@@ -80,7 +90,7 @@ fn wgsl(gpu: &Gpu, label: &str, parts: &[&str]) -> wgpu::ShaderModule {
     gpu.shader(label, wgpu::ShaderSource::Wgsl(parts.concat().into()))
 }
 
-fn pipeline(gpu: &Gpu, layout: &wgpu::PipelineLayout, recipe: &Recipe<'_>) -> RenderPipeline {
+fn pipeline(gpu: &Gpu, recipe: &Recipe<'_>) -> RenderPipeline {
     let attribute =
         |shader_location, offset, format| wgpu::VertexAttribute { format, offset, shader_location };
     let positions = [attribute(0, 0, VertexFormat::Float32x3)];
@@ -92,15 +102,16 @@ fn pipeline(gpu: &Gpu, layout: &wgpu::PipelineLayout, recipe: &Recipe<'_>) -> Re
     let buffer = |array_stride, attributes| {
         Some(wgpu::VertexBufferLayout { array_stride, step_mode: wgpu::VertexStepMode::Vertex, attributes })
     };
+    let buffers = [buffer(12, &positions), buffer(size_of::<Attributes>() as u64, &attributes)];
     let targets: Vec<_> = recipe.formats.iter().map(|f| Some(wgpu::ColorTargetState::from(*f))).collect();
     gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some(recipe.fragment.unwrap_or(recipe.vertex)),
-        layout: Some(layout),
+        layout: Some(recipe.layout),
         vertex: wgpu::VertexState {
             module: recipe.module,
             entry_point: Some(recipe.vertex),
             compilation_options: Default::default(),
-            buffers: &[buffer(12, &positions), buffer(size_of::<Attributes>() as u64, &attributes)],
+            buffers: &buffers[..recipe.vertex_buffers],
         },
         primitive: wgpu::PrimitiveState { unclipped_depth: recipe.unclipped_depth, ..Default::default() },
         depth_stencil: Some(wgpu::DepthStencilState {

@@ -4,8 +4,8 @@ const pcf_weights = array<f32, 3>(0.25, 0.5, 0.25);
 const pcf_width: u32 = 3;
 
 /// Weighted share of an n×n grid of texels around uv that `depth` is not behind [Reeves et al.
-/// 1987]. Each tap compares the receiver's plane at the tap, `depth + dot(plane, offset)`, so that
-/// a wide kernel does not shadow a tilted receiver by itself. `compare` may interpolate 2×2
+/// 1987]. Taps uphill, where the receiver's plane is nearer to the light, compare the depth of that
+/// plane, so that a wide kernel does not shadow a tilted receiver by itself. `compare` may interpolate 2×2
 /// comparisons; then the support is (n+1)×(n+1) texels and the result is continuous in uv.
 fn pcf_visibility(casters: texture_depth_2d_array, compare: sampler_comparison, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f) -> f32 {
     let texel = 1.0 / vec2f(textureDimensions(casters));
@@ -14,7 +14,7 @@ fn pcf_visibility(casters: texture_depth_2d_array, compare: sampler_comparison, 
     for (var row = 0u; row < pcf_width; row += 1u) {
         for (var column = 0u; column < pcf_width; column += 1u) {
             let offset = (first + vec2f(f32(column), f32(row))) * texel;
-            let tap = textureSampleCompareLevel(casters, compare, uv + offset, view, depth + dot(plane, offset));
+            let tap = textureSampleCompareLevel(casters, compare, uv + offset, view, depth + min(dot(plane, offset), 0.0));
             lit += pcf_weights[row] * pcf_weights[column] * tap;
         }
     }
