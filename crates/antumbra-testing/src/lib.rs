@@ -1,5 +1,7 @@
 //! What GPU tests share: one device, error scopes, a test runner that can say "ignored".
 
+pub mod image;
+
 use std::sync::OnceLock;
 
 /// A device with everything that it offers of what antumbra can use.
@@ -54,13 +56,14 @@ impl Gpu {
     pub fn checked<T>(&self, f: impl FnOnce(&Self) -> T) -> T {
         let validation = self.device.push_error_scope(wgpu::ErrorFilter::Validation);
         let memory = self.device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
-        let result = f(self);
+        // An assertion that fails because of a GPU error must not hide it.
+        let result = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| f(self)));
         for scope in [memory, validation] {
             if let Some(error) = pollster::block_on(scope.pop()) {
                 panic!("GPU error: {error}");
             }
         }
-        result
+        result.unwrap_or_else(|panic| std::panic::resume_unwind(panic))
     }
 
     /// Waits and reads a buffer that has `COPY_SRC`.
@@ -146,6 +149,14 @@ impl Trials {
             Ok(())
         });
         self.trials.push(trial.with_ignored_flag(gpu().is_none()));
+    }
+
+    /// Adds a test that needs no GPU and runs everywhere.
+    pub fn add_plain(&mut self, name: impl Into<String>, test: impl FnOnce() + Send + 'static) {
+        self.trials.push(libtest_mimic::Trial::test(name, move || {
+            test();
+            Ok(())
+        }));
     }
 
     /// Runs everything as `cargo test` expects and ends the process.

@@ -58,7 +58,7 @@ fn receivers(seed: u64, count: usize) -> Vec<Receiver> {
     (0..count)
         .map(|_| {
             let footprint = Vec2::new(random.range(-18.0, -3.0).exp2(), random.range(-18.0, -3.0).exp2());
-            Receiver { uv: Vec2::new(random.unit(), random.unit()), depth: random.unit(), footprint }
+            Receiver { footprint, ..Receiver::point(random.unit(), random.unit(), random.unit()) }
         })
         .collect()
 }

@@ -5,10 +5,11 @@ const csm_terms: u32 = 16;
 /// 2 · attenuation of term k ÷ c_k, for k = 1..M; a zero follows if M is odd.
 const csm_weights = array<f32, 2>(0.6, 0.2);
 
-/// (sin c_k z, cos c_k z) with c_k = π(2k − 1). Whole turns are taken off before sin and cos: they
-/// are only accurate near zero on some GPUs.
+/// (sin c_k z, cos c_k z) with c_k = π(2k − 1). Whole turns are taken off before sin and cos: WGSL
+/// only promises their accuracy within ±π.
 fn csm_basis(k: u32, z: f32) -> vec2f {
-    let angle = 6.283185307179586 * fract((f32(k) - 0.5) * z);
+    let turns = (f32(k) - 0.5) * z;
+    let angle = 6.283185307179586 * (turns - round(turns));
     return vec2f(sin(angle), cos(angle));
 }
 

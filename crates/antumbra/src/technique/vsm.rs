@@ -96,6 +96,15 @@ impl Technique for Vsm {
 
 /// The paper's formulas in f64: what the WGSL is tested against.
 pub mod reference {
+    /// Moments of a texel from its own depth and those of its neighbours, as the WGSL takes them:
+    /// `depths[1 + dx][1 + dy]`.
+    #[must_use]
+    pub fn encode(depths: [[f64; 3]; 3], slope: f64) -> [f64; 2] {
+        let z = depths[1][1];
+        let x = (depths[2][1] - z).abs().min((z - depths[0][1]).abs());
+        let y = (depths[1][2] - z).abs().min((z - depths[1][0]).abs());
+        [z, z * z + slope * 0.25 * (x * x + y * y)]
+    }
     /// Chebyshev bound of moments (μ, E z²) at depth d, floor σ²_min, reduction r.
     #[must_use]
     pub fn bound(d: f64, moments: [f64; 2], least_variance: f64, reduction: f64) -> f64 {

@@ -16,12 +16,14 @@ pub struct Receiver {
     pub depth: f32,
     /// Change of uv to the next pixel in x and in y.
     pub footprint: Vec2,
+    /// Unit normal.
+    pub normal: Vec3,
 }
 
 impl Receiver {
-    /// A point with a footprint far below a texel.
+    /// A point that faces the light, with a footprint far below a texel.
     pub fn point(u: f32, v: f32, depth: f32) -> Self {
-        Self { uv: Vec2::new(u, v), depth, footprint: Vec2::splat(1e-6) }
+        Self { uv: Vec2::new(u, v), depth, footprint: Vec2::splat(1e-6), normal: Vec3::NEG_Z }
     }
 }
 
@@ -181,26 +183,26 @@ pub fn shadow_map_of(
     shadows
 }
 
-/// `shadow_visibility` at receivers that face the light.
+/// `shadow_visibility` at receivers.
 pub fn visibility(gpu: &Gpu, shadows: &ShadowMap, receivers: &[Receiver]) -> Vec<f32> {
-    let rows: Vec<[Vec4; 3]> = receivers
+    let rows: Vec<[Vec4; 4]> = receivers
         .iter()
         .map(|r| {
             let position = Vec3::new(r.uv.x * 2.0 - 1.0, 1.0 - r.uv.y * 2.0, r.depth);
             let ddx = Vec4::new(2.0 * r.footprint.x, 0.0, 0.0, 0.0);
             let ddy = Vec4::new(0.0, -2.0 * r.footprint.y, 0.0, 0.0);
-            [position.extend(0.0), ddx, ddy]
+            [position.extend(0.0), ddx, ddy, r.normal.extend(0.0)]
         })
         .collect();
-    let rows: Vec<[f32; 12]> = rows.iter().map(|r| std::array::from_fn(|i| r[i / 4][i % 4])).collect();
+    let rows: Vec<[f32; 16]> = rows.iter().map(|r| std::array::from_fn(|i| r[i / 4][i % 4])).collect();
     let user = "
-        struct Row { position: vec4f, ddx: vec4f, ddy: vec4f }
+        struct Row { position: vec4f, ddx: vec4f, ddy: vec4f, normal: vec4f }
         @group(1) @binding(0) var<storage, read> rows: array<Row>;
         @group(1) @binding(1) var<storage, read_write> results: array<f32>;
         @compute @workgroup_size(64) fn main(@builtin(global_invocation_id) id: vec3u) {
             if id.x >= arrayLength(&rows) { return; }
             let row = rows[id.x];
-            results[id.x] = shadow_visibility(row.position.xyz, vec3f(0.0, 0.0, -1.0), row.ddx.xyz, row.ddy.xyz);
+            results[id.x] = shadow_visibility(row.position.xyz, row.normal.xyz, row.ddx.xyz, row.ddy.xyz);
         }";
     compute(gpu, shadows, user, bytes_of(rows.as_flattened()), receivers.len(), receivers.len())
 }

@@ -1,0 +1,185 @@
+//! One small picture per technique, and what each picture must show.
+//!
+//! The scene, in the light's own space: a tilted ground; a disc far above it; a sheet just above
+//! the ground that reaches under the disc's rim; a bar of about one texel; a ramp that rises from
+//! the ground. White is lit.
+
+mod common;
+
+use antumbra::{Options, Size, technique, technique::Bias};
+use antumbra_testing::{
+    Gpu, Trials,
+    image::{Image, Tolerance},
+};
+use common::{Receiver, depth_texture, shadow_map, visibility};
+use glam::{Vec2, Vec3};
+use std::path::PathBuf;
+
+const SIZE: Size = Size::square(64);
+/// Pixels along a side of the picture: two per texel, so that none lies on a texel's border.
+const SIDE: u32 = 128;
+const TOLERANCE: Tolerance = Tolerance { mean: 2.0, max: 32 };
+
+/// Depth of the ground.
+fn ground(u: f32, v: f32) -> f32 {
+    0.78 + 0.12 * (u - 0.5) + 0.1 * (v - 0.5)
+}
+
+fn in_disc(u: f32, v: f32, grown: f32) -> bool {
+    Vec2::new(u - 0.33, v - 0.33).length() < 0.17 + grown
+}
+
+fn in_sheet(u: f32, v: f32, grown: f32) -> bool {
+    (0.3 - grown..0.62 + grown).contains(&u) && (0.3 - grown..0.5 + grown).contains(&v)
+}
+
+/// From the foot of the ramp, where it touches the ground.
+fn up_the_ramp(u: f32, v: f32) -> Option<f32> {
+    ((0.65..0.9).contains(&u) && (0.55..0.9).contains(&v)).then_some(v - 0.55)
+}
+
+/// Depth of the nearest caster.
+fn nearest(u: f32, v: f32) -> f32 {
+    let mut z = ground(u, v);
+    let mut cast = |there: bool, depth: f32| {
+        if there {
+            z = z.min(depth);
+        }
+    };
+    cast(in_disc(u, v, 0.0), 0.1);
+    cast(in_sheet(u, v, 0.0), 0.62);
+    cast((0.15..0.6).contains(&u) && (v - 0.62 - 0.3 * u).abs() < 0.01, 0.35);
+    cast(up_the_ramp(u, v).is_some(), ground(u, v) - 1.1 * up_the_ramp(u, v).unwrap_or(0.0));
+    z
+}
+
+fn receivers() -> Vec<Receiver> {
+    let normal = Vec3::new(0.06, -0.05, -1.0).normalize();
+    let centre = |i: u32| (i as f32 + 0.5) / SIDE as f32;
+    (0..SIDE * SIDE)
+        .map(|i| (centre(i % SIDE), centre(i / SIDE)))
+        .map(|(u, v)| Receiver {
+            footprint: Vec2::splat(1.0 / SIDE as f32),
+            normal,
+            ..Receiver::point(u, v, ground(u, v))
+        })
+        .collect()
+}
+
+fn picture(gpu: &Gpu, spec: &str, bias: Option<Bias>) -> Vec<f32> {
+    let texel = |i: u32| (i as f32 + 0.5) / 64.0;
+    let depth = depth_texture(gpu, SIZE, |x, y| nearest(texel(x), texel(y)));
+    let options = Options { bias, ..SIZE.into() };
+    let shadows = shadow_map(gpu, technique::parse(spec).unwrap().as_ref(), &depth, options);
+    visibility(gpu, &shadows, &receivers())
+}
+
+/// Values of a picture at the receivers that `there` chooses by their uv.
+fn at(picture: &[f32], there: impl Fn(f32, f32) -> bool) -> Vec<f32> {
+    let chosen: Vec<f32> = std::iter::zip(receivers(), picture)
+        .filter(|(r, _)| there(r.uv.x, r.uv.y))
+        .map(|(_, v)| *v)
+        .collect();
+    assert!(chosen.len() > 50, "only {} pixels", chosen.len());
+    chosen
+}
+
+fn mean(values: &[f32]) -> f32 {
+    values.iter().sum::<f32>() / values.len() as f32
+}
+
+fn largest(values: &[f32]) -> f32 {
+    values.iter().fold(0.0, |a: f32, b| a.max(*b))
+}
+
+/// Number of different grey levels.
+fn levels(picture: &[f32]) -> usize {
+    let mut levels: Vec<u32> = picture.iter().map(|v| (v * 4096.0).round() as u32).collect();
+    levels.sort_unstable();
+    levels.dedup();
+    levels.len()
+}
+
+/// Well inside the map, away from all casters.
+fn open(u: f32, v: f32) -> bool {
+    (0.7..0.95).contains(&u) && (0.05..0.45).contains(&v)
+}
+
+/// In the sheet's shadow, along the disc's rim, away from the sheet's own edge.
+fn two_layers(u: f32, v: f32) -> bool {
+    in_sheet(u, v, -0.03) && in_disc(u, v, 0.03) && !in_disc(u, v, -0.03)
+}
+
+fn hard_has_two_levels(gpu: &Gpu) {
+    let hard = picture(gpu, "hard", None);
+    assert_eq!(levels(&hard), 2);
+    assert_eq!(mean(&at(&hard, open)), 1.0);
+    assert_eq!(largest(&at(&hard, |u, v| in_disc(u, v, -0.03))), 0.0);
+}
+
+fn pcf_has_as_many_levels_as_taps(gpu: &Gpu) {
+    let nearest = levels(&picture(gpu, "pcf.kernel=3,weights=box,taps=nearest", None));
+    assert!((5..=10).contains(&nearest), "{nearest} levels from 9 taps");
+    let bilinear = levels(&picture(gpu, "pcf.kernel=3,weights=box", None));
+    assert!(bilinear > 20, "{bilinear} levels from interpolated taps");
+}
+
+fn vsm_bleeds_between_two_layers(gpu: &Gpu) {
+    let leak = |spec| largest(&at(&picture(gpu, spec, None), two_layers));
+    let (vsm, reduced, esm) = (leak("vsm"), leak("vsm.reduction=0.4"), leak("esm"));
+    assert!(vsm > 0.2, "the bound must bleed: {vsm}");
+    assert!(reduced < 0.5 * vsm, "reduction must cut it: {reduced} of {vsm}");
+    assert!(esm < 0.02, "an exponential must not: {esm}");
+}
+
+fn csm_is_brighter_at_contact_with_fewer_terms(gpu: &Gpu) {
+    let foot = |u: f32, v: f32| {
+        (0.68..0.87).contains(&u) && up_the_ramp(u, v).is_some_and(|t| (0.03..0.07).contains(&t))
+    };
+    let contact = |spec| mean(&at(&picture(gpu, spec, None), foot));
+    let (few, many, hard) = (contact("csm.terms=4"), contact("csm.terms=16"), contact("hard"));
+    assert!(few > many + 0.1, "4 terms {few}, 16 terms {many}");
+    assert!(many > hard, "both are brighter than the truth");
+}
+
+fn esm_needs_no_bias(gpu: &Gpu) {
+    let acne = |spec| {
+        let open = at(&picture(gpu, spec, Some(Bias::NONE)), open);
+        open.iter().filter(|v| **v < 0.5).count() as f32 / open.len() as f32
+    };
+    let (esm, hard) = (acne("esm"), acne("hard"));
+    assert_eq!(esm, 0.0);
+    assert!(hard > 0.2, "without bias a comparison shadows a tilted plane: {hard}");
+}
+
+fn main() {
+    type Claim = (&'static str, &'static str, fn(&Gpu));
+    const CLAIMS: [Claim; 5] = [
+        ("hard", "two levels", hard_has_two_levels),
+        ("pcf", "as many levels as taps", pcf_has_as_many_levels_as_taps),
+        ("vsm", "bleeds between two layers", vsm_bleeds_between_two_layers),
+        ("csm", "brighter at contact with fewer terms", csm_is_brighter_at_contact_with_fewer_terms),
+        ("esm", "needs no bias", esm_needs_no_bias),
+    ];
+    let path =
+        |name: &str| PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("tests/golden/{name}.png"));
+    let mut trials = Trials::default();
+    for name in technique::all().iter().map(|t| t.page().name) {
+        trials.add(format!("{name}: picture"), move |gpu| {
+            let image = Image::grey(SIDE, &picture(gpu, name, None));
+            image.compare_with_reference(&path(name), TOLERANCE).unwrap();
+        });
+        trials.add_plain(format!("{name}: has a claim"), move || {
+            assert!(CLAIMS.iter().any(|c| c.0 == name));
+        });
+    }
+    for (name, claim, check) in CLAIMS {
+        trials.add(format!("{name}: {claim}"), check);
+    }
+    trials.add("rejected: the picture of another technique", move |gpu| {
+        let image = Image::grey(SIDE, &picture(gpu, "esm", None));
+        image.compare(&Image::read(&path("vsm")).unwrap(), TOLERANCE).unwrap_err();
+        image.compare(&Image::read(&path("hard")).unwrap(), TOLERANCE).unwrap_err();
+    });
+    trials.run();
+}

@@ -1,0 +1,519 @@
+//! The WGSL against the same formulas in f64, on thousands of random inputs.
+//!
+//! Every comparison is repeated with a reference that is slightly wrong, and must then fail.
+
+mod common;
+
+use antumbra::{
+    Capabilities, Light, Size, Technique, technique, technique::csm, technique::esm, technique::vsm,
+};
+use antumbra_testing::{Gpu, Trials};
+use common::{Random, compute, depth_texture, shadow_map, texels};
+use glam::{DMat4, DVec3, Vec3};
+
+const SIZE: Size = Size::square(64);
+const ROWS: usize = 4096;
+/// Floats of input per invocation.
+const INPUTS: usize = 16;
+type Row = [f32; INPUTS];
+
+/// Encode functions that a trial below compares.
+const ENCODE_FUNCTIONS: [&str; 3] = ["vsm_encode", "csm_encode", "esm_encode"];
+
+/// WGSL allows sin and cos this absolute error within ±π: 2^−11.
+const SINE: f64 = 4.9e-4;
+
+fn rows(seed: u64, make: impl Fn(&mut Random) -> Row) -> Vec<Row> {
+    let mut random = Random::new(seed);
+    (0..ROWS).map(|_| make(&mut random)).collect()
+}
+
+/// A row that begins with these values.
+fn row<const N: usize>(values: [f32; N]) -> Row {
+    std::array::from_fn(|i| values.get(i).copied().unwrap_or(0.0))
+}
+
+fn shadows(gpu: &Gpu, technique: &dyn Technique, seed: u64) -> antumbra::ShadowMap {
+    shadow_map(gpu, technique, &depth_texture(gpu, SIZE, noise(seed)), SIZE.into())
+}
+
+fn noise(seed: u64) -> impl Fn(u32, u32) -> f32 {
+    let mut random = Random::new(seed);
+    let depths: Vec<f32> = (0..SIZE.width * SIZE.height).map(|_| random.unit()).collect();
+    move |x, y| depths[(y * SIZE.width + x) as usize]
+}
+
+/// Runs `body`, which reads `take(i)` and writes `put(i, value)` for i < N, on every row.
+fn run<const N: usize>(gpu: &Gpu, shadows: &antumbra::ShadowMap, body: &str, rows: &[Row]) -> Vec<[f32; N]> {
+    let user = format!(
+        "
+        @group(1) @binding(0) var<storage, read> rows: array<f32>;
+        @group(1) @binding(1) var<storage, read_write> results: array<f32>;
+        var<private> me: u32;
+        fn take(i: u32) -> f32 {{ return rows[me * {INPUTS}u + i]; }}
+        fn take2(i: u32) -> vec2f {{ return vec2f(take(i), take(i + 1u)); }}
+        fn take3(i: u32) -> vec3f {{ return vec3f(take(i), take(i + 1u), take(i + 2u)); }}
+        fn put(i: u32, value: f32) {{ results[me * {N}u + i] = value; }}
+        fn put2(i: u32, value: vec2f) {{ put(i, value.x); put(i + 1u, value.y); }}
+        fn put3(i: u32, value: vec3f) {{ put2(i, value.xy); put(i + 2u, value.z); }}
+        fn put4(i: u32, value: vec4f) {{ put2(i, value.xy); put2(i + 2u, value.zw); }}
+        @compute @workgroup_size(64) fn main(@builtin(global_invocation_id) id: vec3u) {{
+            if id.x * {INPUTS}u >= arrayLength(&rows) {{ return; }}
+            me = id.x;
+            {body}
+        }}"
+    );
+    let input = bytemuck::cast_slice(rows.as_flattened());
+    let flat = compute(gpu, shadows, &user, input, rows.len() * N, rows.len());
+    flat.chunks_exact(N).map(|c| std::array::from_fn(|i| c[i])).collect()
+}
+
+/// `expected` gives values and the tolerance of each.
+fn compare<const N: usize, const M: usize>(
+    rows: &[Row],
+    found: &[[f32; N]],
+    expected: impl Fn(&[f64; INPUTS]) -> ([f64; M], f64),
+) -> Result<(), String> {
+    compare_from::<N, M>(0, rows, found, expected)
+}
+
+/// The same for the results from number `first` on.
+fn compare_from<const N: usize, const M: usize>(
+    first: usize,
+    rows: &[Row],
+    found: &[[f32; N]],
+    expected: impl Fn(&[f64; INPUTS]) -> ([f64; M], f64),
+) -> Result<(), String> {
+    for (row, found) in rows.iter().zip(found) {
+        let (values, tolerance) = expected(&row.map(f64::from));
+        for (i, (f, e)) in found[first..].iter().zip(values).enumerate() {
+            let difference = (f64::from(*f) - e).abs();
+            if difference.is_nan() || difference > tolerance {
+                return Err(format!("result {i}: {f} instead of {e} ± {tolerance:e} for {row:?}"));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// exp: (3 + 2|x|) ulp are allowed, and c·z is rounded: 87 · (2 · 1.2e-7 + 6e-8) with some room.
+fn esm_encodes_and_bounds(gpu: &Gpu) {
+    const EXP: f64 = 3e-5;
+    let shadows = shadows(gpu, &esm::Esm::default(), 1);
+    let rows = rows(2, |r| {
+        let (z, d, c) = (r.unit(), r.unit(), r.range(1.0, 87.0));
+        row([z, d, c, (c * z).exp()])
+    });
+    let body = "
+        let depths = mat3x3f(vec3f(0.0), vec3f(0.0, take(0u), 0.0), vec3f(0.0));
+        put(0u, esm_encode(depths, 0u, take(2u)).x);
+        put(1u, esm_bound(take(1u), take(3u), take(2u)));";
+    let found = run::<2>(gpu, &shadows, body, &rows);
+    let encode = |factor: f64| {
+        move |r: &[f64; INPUTS]| {
+            let e = esm::reference::encode(r[0], factor * r[2]);
+            ([e], e * EXP)
+        }
+    };
+    compare(&rows, &found, encode(1.0)).unwrap();
+    compare(&rows, &found, encode(1.001)).unwrap_err();
+    let bound = |sign: f64| move |r: &[f64; INPUTS]| ([esm::reference::bound(sign * r[1], r[3], r[2])], EXP);
+    compare_from(1, &rows, &found, bound(1.0)).unwrap();
+    compare_from(1, &rows, &found, bound(-1.0)).unwrap_err();
+}
+
+/// Products of numbers below one: a few roundings of 6e-8.
+fn vsm_encodes(gpu: &Gpu) {
+    let shadows = shadows(gpu, &vsm::Vsm::default(), 1);
+    let rows = rows(3, |r| std::array::from_fn(|i| if i == 9 { r.range(0.0, 4.0) } else { r.unit() }));
+    let body = "
+        let depths = mat3x3f(take3(0u), take3(3u), take3(6u));
+        put2(0u, vsm_encode(depths, 0u, 0.0, 0.0, take(9u)).xy);";
+    let found = run::<2>(gpu, &shadows, body, &rows);
+    let moments = |factor: f64| {
+        move |r: &[f64; INPUTS]| {
+            let depths = std::array::from_fn(|i| std::array::from_fn(|j| r[3 * i + j]));
+            (vsm::reference::encode(depths, factor * r[9]), 1e-6)
+        }
+    };
+    compare(&rows, &found, moments(1.0)).unwrap();
+    compare(&rows, &found, moments(1.001)).unwrap_err();
+}
+
+/// The variance is a difference of numbers up to one, rounded by 1.2e-7 altogether; the bound
+/// changes with it by at most 1/(4σ²), which the reduction stretches by 1/(1 − r).
+fn vsm_and_chebyshev_bound(gpu: &Gpu) {
+    let shadows = shadows(gpu, &vsm::Vsm::default(), 1);
+    let rows = rows(4, |r| {
+        let (mean, variance) = (r.unit(), 10f32.powf(r.range(-6.0, -1.0)));
+        let least = 10f32.powf(r.range(-5.0, -2.0));
+        row([r.unit(), mean, mean * mean + variance, least, r.range(0.0, 0.9)])
+    });
+    let body = "
+        put(0u, vsm_bound(take(0u), take2(1u), take(3u), take(4u)));
+        put(1u, chebyshev_bound(take(0u), take2(1u), take(3u)));
+        put(2u, chebyshev_reduce(take(0u), take(4u)));";
+    let found = run::<3>(gpu, &shadows, body, &rows);
+    let bound = |least: f64, reduction: f64| {
+        move |r: &[f64; INPUTS]| {
+            let v = vsm::reference::bound(r[0], [r[1], r[2]], least * r[3], reduction * r[4]);
+            let rounding = 1.2e-7 / (4.0 * r[3].max(r[2] - r[1] * r[1]));
+            ([v], (rounding + 1e-6) / (1.0 - reduction * r[4]))
+        }
+    };
+    compare(&rows, &found, bound(1.0, 1.0)).unwrap();
+    compare(&rows, &found, bound(1.1, 1.0)).unwrap_err();
+    compare(&rows, &found, bound(1.0, 1.01)).unwrap_err();
+    compare_from(1, &rows, &found, bound(1.0, 0.0)).unwrap();
+    compare_from(1, &rows, &found, bound(1.1, 0.0)).unwrap_err();
+    let reduce = |r: &[f64; INPUTS]| ([((r[0] - r[4]) / (1.0 - r[4])).clamp(0.0, 1.0)], 1e-5);
+    compare_from(2, &rows, &found, reduce).unwrap();
+}
+
+/// Every layer's sum, from the stored form, is the series. Each term errs by two products of sines; the weights of 16 terms sum to 1.5.
+fn csm_sums_its_series(gpu: &Gpu) {
+    let settings = [
+        csm::Csm::default(),
+        csm::Csm { terms: 5, attenuation: 0.0, ..csm::Csm::default() },
+        csm::Csm { terms: 1, ..csm::Csm::default() },
+    ];
+    for csm in settings {
+        let shadows = shadows(gpu, &csm, 1);
+        let rows = rows(5, |r| row([r.unit(), r.unit(), 1.0 + (r.unit() * 16.0).floor()]));
+        let body = "
+            let depths = mat3x3f(vec3f(0.0), vec3f(0.0, take(0u), 0.0), vec3f(0.0));
+            put2(0u, csm_basis(u32(take(2u)), take(0u)));
+            var sum = 0.5;
+            for (var layer = 0u; layer < (csm_terms + 1u) / 2u; layer += 1u) {
+                let stored = csm_encode(depths, layer, 1.0, 0.0, 1.0);
+                sum += csm_layer(take(1u), stored, layer);
+            }
+            put(2u, sum);";
+        let found = run::<3>(gpu, &shadows, body, &rows);
+        let basis = |factor: f64| {
+            move |r: &[f64; INPUTS]| (csm::reference::basis(r[2] as u32, factor * r[0]), SINE + 1e-5)
+        };
+        compare(&rows, &found, basis(1.0)).unwrap();
+        compare(&rows, &found, basis(1.001)).unwrap_err();
+        let series = |sign: f64| {
+            move |r: &[f64; INPUTS]| {
+                let v = csm::reference::series(&csm, r[1], r[0]) - 0.5;
+                ([0.5 + sign * v], 4.0 * SINE)
+            }
+        };
+        compare_from(2, &rows, &found, series(1.0)).unwrap();
+        // Eq. 11 of the paper, whose sign is reversed.
+        compare_from(2, &rows, &found, series(-1.0)).unwrap_err();
+        compare_from(2, &rows, &found, series(1.01)).unwrap_err();
+    }
+}
+
+/// A depth z is rounded by 6e-8, which the curve of a perspective depth magnifies by 1/(1 − (1 − r)z).
+fn raster_depth_is_linearised(gpu: &Gpu) {
+    let shadows = shadows(gpu, &technique::Hard, 1);
+    // r = near/far; z projected depth; l linear depth.
+    let rows = rows(6, |r| row([r.unit(), 10f32.powf(r.range(-3.0, 0.0)), r.unit()]));
+    let body = "
+        put(0u, raster_linear(take(0u), take(1u)));
+        put(1u, raster_slope(take(2u), take(1u)));";
+    let found = run::<2>(gpu, &shadows, body, &rows);
+    // From distances: with far = 1, z = (1 − r/w)/(1 − r), linear depth (w − r)/(1 − r).
+    let linear = |factor: f64| {
+        move |row: &[f64; INPUTS]| {
+            let (z, r) = (row[0], row[1] * factor);
+            let w = r / (1.0 - z * (1.0 - r));
+            let l = (w - r) / (1.0 - r).max(1e-12);
+            ([l], 1e-6 + 3e-7 * l / (1.0 - (1.0 - r) * z))
+        }
+    };
+    compare(&rows, &found, linear(1.0)).unwrap();
+    compare(&rows, &found, linear(1.001)).unwrap_err();
+    let projected = |l: f64, r: f64| l / (r + l * (1.0 - r));
+    let slope = |factor: f64| {
+        move |row: &[f64; INPUTS]| {
+            let (h, l, r) = (1e-7, row[2], row[1] * factor);
+            let s = (projected(l + h, r) - projected(l - h, r)) / (2.0 * h);
+            ([s], 1e-5 * s)
+        }
+    };
+    compare_from(1, &rows, &found, slope(1.0)).unwrap();
+    compare_from(1, &rows, &found, slope(1.001)).unwrap_err();
+}
+
+/// Not a number, infinities and depths out of range become the far plane; the rest stays, exactly.
+fn raster_depth_is_cleaned(gpu: &Gpu) {
+    let shadows = shadows(gpu, &technique::Hard, 1);
+    let odd = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -1e-6, -3.0, 1.000_001, 7.0];
+    let good = [0.0, 1.0, 0.5, 1e-30, 0.999_999];
+    let rows: Vec<Row> = odd.iter().chain(&good).map(|z| row([*z])).collect();
+    let found = run::<1>(gpu, &shadows, "put(0u, raster_clean(take(0u)));", &rows);
+    let expected: Vec<[f32; 1]> = odd.iter().map(|_| [1.0]).chain(good.map(|z| [z])).collect();
+    assert_eq!(found, expected);
+}
+
+/// Positions up to 4, distances of 8 to 16: a few roundings, none magnified.
+fn receivers_are_projected(gpu: &Gpu) {
+    let shadows = shadows(gpu, &technique::Hard, 1);
+    let bounds = antumbra::Bounds { min: Vec3::splat(-4.0), max: Vec3::splat(4.0) };
+    let spot = Light::Spot {
+        position: Vec3::new(1.0, 12.0, 2.0),
+        direction: Vec3::new(0.1, -1.0, 0.2),
+        outer_angle: 0.6,
+    };
+    let fit = antumbra::Fit {
+        casters: bounds,
+        receivers: bounds.corners().collect(),
+        size: SIZE,
+        margin_texels: 2.0,
+    };
+    let matrix = spot.view(&fit).unwrap().clip_from_world;
+    let m: Vec<String> = matrix.to_cols_array().iter().map(|v| format!("{v:?}")).collect();
+    let rows = rows(7, |r| {
+        let n = Vec3::new(r.range(-1.0, 1.0), r.range(-1.0, 1.0), r.range(-1.0, 1.0)).normalize();
+        let p = Vec3::new(r.range(-4.0, 4.0), r.range(-4.0, 4.0), r.range(-4.0, 4.0));
+        row([p.x, p.y, p.z, n.x, n.y, n.z])
+    });
+    let body = format!(
+        "
+        let matrix = mat4x4f({});
+        let ndc = receiver_project(matrix, take3(0u));
+        put4(0u, ndc);
+        put3(4u, receiver_gradient(matrix, ndc, take3(3u)));
+        put2(7u, receiver_uv(ndc.xy));
+        put3(9u, receiver_tangent(take3(3u)));",
+        m.join(", ")
+    );
+    let found = run::<12>(gpu, &shadows, &body, &rows);
+    let matrix = matrix.as_dmat4();
+    let project = |matrix: DMat4, p: DVec3| {
+        let c = matrix * p.extend(1.0);
+        (c.truncate() / c.w).extend(c.w)
+    };
+    let point = |r: &[f64; INPUTS]| (DVec3::new(r[0], r[1], r[2]), DVec3::new(r[3], r[4], r[5]));
+    let ndc = |factor: f64| {
+        move |r: &[f64; INPUTS]| {
+            (project(matrix * DMat4::from_scale(DVec3::splat(factor)), point(r).0).to_array(), 5e-6)
+        }
+    };
+    compare(&rows, &found, ndc(1.0)).unwrap();
+    compare(&rows, &found, ndc(1.001)).unwrap_err();
+    let gradient = |factor: f64| {
+        move |r: &[f64; INPUTS]| {
+            let ((p, n), h) = (point(r), 1e-5);
+            let change = (project(matrix, p + n * h) - project(matrix, p - n * h)) / (2.0 * h);
+            ((change.truncate() * factor).to_array(), 2e-6)
+        }
+    };
+    compare_from(4, &rows, &found, gradient(1.0)).unwrap();
+    compare_from(4, &rows, &found, gradient(1.001)).unwrap_err();
+    let uv = |r: &[f64; INPUTS]| {
+        let ndc = project(matrix, point(r).0);
+        ([0.5 + 0.5 * ndc.x, 0.5 - 0.5 * ndc.y], 5e-6)
+    };
+    compare_from(7, &rows, &found, uv).unwrap();
+    for (r, f) in rows.iter().zip(&found) {
+        let (n, t) = (Vec3::new(r[3], r[4], r[5]), Vec3::new(f[9], f[10], f[11]));
+        assert!((t.length() - 1.0).abs() < 1e-5 && n.dot(t).abs() < 1e-5, "tangent {t} of {n}");
+    }
+}
+
+/// The gradient g of depth solves g·duv = ddepth along both tangents; a plane seen edge-on has none,
+/// but its components stay finite and within the bound.
+fn receiver_planes_are_solved(gpu: &Gpu) {
+    const STEEPEST: f32 = 20.0;
+    let shadows = shadows(gpu, &technique::Hard, 1);
+    let mut rows = rows(8, |r| {
+        let mut values = row([0.0; 1]);
+        values[..6].fill_with(|| r.range(-1.0, 1.0));
+        values
+    });
+    // Edge-on: both tangents along one line, one of no length, both.
+    let edge_on = rows.len();
+    rows.push(row([0.3, 0.2, 0.6, 0.4, 0.5, 0.1]));
+    rows.push(row([0.3, 0.2, 0.0, 0.0, 0.5, 0.1]));
+    rows.push(row([0.0, 0.0, 0.0, 0.0, 0.5, -0.1]));
+    rows.push(row([0.0; 1]));
+    rows.push(row([1e-20, 0.0, 0.0, 1e-20, 1.0, 1.0]));
+    let body = format!(
+        "put2(0u, receiver_plane(take2(0u), take2(2u), take2(4u), vec2f({STEEPEST:?}, {STEEPEST:?})));"
+    );
+    let found = run::<2>(gpu, &shadows, &body, &rows);
+    assert!(found.as_flattened().iter().all(|g| g.abs() <= STEEPEST), "a plane without bound");
+    let solve = |factor: f64| {
+        move |r: &[f64; INPUTS]| {
+            let area = r[0] * r[3] - r[1] * r[2];
+            let g = [(r[4] * r[3] - r[5] * r[1]) / area, (r[5] * r[0] - r[4] * r[2]) / area];
+            let s = f64::from(STEEPEST);
+            // Rounding of the products, divided by the area.
+            (g.map(|g| (factor * g).clamp(-s, s)), 1e-6 + 2e-6 * (1.0 + s) / area.abs())
+        }
+    };
+    compare(&rows[..edge_on], &found[..edge_on], solve(1.0)).unwrap();
+    compare(&rows[..edge_on], &found[..edge_on], solve(1.01)).unwrap_err();
+    let residual = |r: &Row, g: &[f32; 2]| {
+        let along = |i: usize| g[0] * r[2 * i] + g[1] * r[2 * i + 1] - r[4 + i];
+        along(0).abs().max(along(1).abs())
+    };
+    let within = |g: &[f32; 2]| g.iter().all(|g| g.abs() < STEEPEST);
+    for (r, g) in rows[..edge_on].iter().zip(&found).filter(|(_, g)| within(g)) {
+        assert!(residual(r, g) < 1e-3, "{g:?} for {r:?}");
+    }
+}
+
+/// Weights of GPUs' samplers have 8 bits; software drivers' are floats.
+fn sampler_error(gpu: &Gpu) -> f64 {
+    if gpu.info.device_type == wgpu::DeviceType::Cpu { 1e-5 } else { 4e-3 }
+}
+
+/// Texel (x, y) of an image, edges repeated.
+fn clamped(x: f64, y: f64, side: usize) -> usize {
+    let index = |v: f64| v.clamp(0.0, side as f64 - 1.0) as usize;
+    index(y) * side + index(x)
+}
+
+/// Bilinear interpolation of `image(index)` over a square of `side` texels.
+fn bilinear(u: f64, v: f64, side: usize, image: impl Fn(usize) -> f64) -> f64 {
+    let (x, y) = (u * side as f64 - 0.5, v * side as f64 - 0.5);
+    let (fx, fy) = (x - x.floor(), y - y.floor());
+    let at = |dx: f64, dy: f64| image(clamped(x.floor() + dx, y.floor() + dy, side));
+    let top = at(0.0, 0.0) * (1.0 - fx) + at(1.0, 0.0) * fx;
+    let bottom = at(0.0, 1.0) * (1.0 - fx) + at(1.0, 1.0) * fx;
+    top * (1.0 - fy) + bottom * fy
+}
+
+/// The whole kernel on a tilted receiver, as a sum over the depth texels.
+fn pcf_is_a_weighted_sum(gpu: &Gpu) {
+    let pcf = technique::Pcf { kernel: 4, ..technique::Pcf::default() };
+    let shadows = shadows(gpu, &pcf, 9);
+    let depth = noise(9);
+    let depths: Vec<f64> =
+        (0..64).flat_map(|y| (0..64).map(move |x| (x, y))).map(|(x, y)| f64::from(depth(x, y))).collect();
+    let rows = rows(10, |r| row([r.unit(), r.unit(), r.unit(), r.range(-2.0, 2.0), r.range(-2.0, 2.0)]));
+    let body = "put(0u, pcf_visibility(shadow_binding_0, shadow_binding_1, take2(0u), 0u, take(2u), take2(3u), vec2f(0.0), vec2f(0.0)));";
+    let found = run::<1>(gpu, &shadows, body, &rows);
+    let weights: Vec<f64> =
+        antumbra::Kernel::new(pcf.weights, pcf.kernel, 0.0).taps.iter().map(|w| f64::from(*w)).collect();
+    // Downhill taps compare the receiver's own depth: `downhill` is the share of the plane they follow.
+    let sum = |uphill: f64, downhill: f64| {
+        let (depths, weights) = (&depths, &weights);
+        move |r: &[f64; INPUTS]| {
+            let mut lit = 0.0;
+            for (j, wy) in weights.iter().enumerate() {
+                for (i, wx) in weights.iter().enumerate() {
+                    let (du, dv) = ((i as f64 - 1.5) / 64.0, (j as f64 - 1.5) / 64.0);
+                    let rise = r[3] * du + r[4] * dv;
+                    let d = r[2] + uphill * rise.min(0.0) + downhill * rise.max(0.0);
+                    let test = |texel: usize| if d <= depths[texel] { 1.0 } else { 0.0 };
+                    lit += wx * wy * bilinear(r[0] + du, r[1] + dv, 64, test);
+                }
+            }
+            ([lit], sampler_error(gpu))
+        }
+    };
+    // A depth within rounding of a texel's may fall on either side: allow a handful of rows.
+    let strays = |uphill, downhill| {
+        let differs = |i: usize| compare(&rows[i..=i], &found[i..=i], sum(uphill, downhill)).is_err();
+        (0..rows.len()).filter(|i| differs(*i)).count()
+    };
+    assert!(strays(1.0, 0.0) <= 4, "{} rows differ", strays(1.0, 0.0));
+    assert!(strays(0.9, 0.0) > 100, "a plane that is a tenth too flat went unnoticed");
+    assert!(strays(1.0, 1.0) > 100, "a plane followed downhill went unnoticed");
+}
+
+/// f64 image pyramid of channel 0 of a map.
+fn pyramid(gpu: &Gpu, texture: &wgpu::Texture) -> Vec<Vec<f64>> {
+    (0..texture.mip_level_count())
+        .map(|mip| texels(gpu, texture, 0, mip).iter().map(|t| t[0]).collect())
+        .collect()
+}
+
+fn trilinear(levels: &[Vec<f64>], u: f64, v: f64, level: f64) -> f64 {
+    let level = level.clamp(0.0, levels.len() as f64 - 1.0);
+    let at = |l: f64| bilinear(u, v, 64 >> l as usize, |i| levels[l as usize][i]);
+    let (fine, coarse) = (at(level.floor()), at(level.ceil()));
+    fine + (coarse - fine) * level.fract()
+}
+
+/// What each sampling setting should read: footprint in uv.
+fn looked_up(sampling: &str, levels: &[Vec<f64>], r: &[f64; INPUTS], most: f64) -> f64 {
+    let (u, v) = (r[0], r[1]);
+    let length = |i: usize| 64.0 * r[i].hypot(r[i + 1]);
+    let (x, y) = (length(2), length(4));
+    match sampling {
+        "nearest" => levels[0][clamped((u * 64.0).floor(), (v * 64.0).floor(), 64)],
+        "bilinear" => trilinear(levels, u, v, 0.0),
+        "trilinear" => trilinear(levels, u, v, x.max(y).max(1.0).log2()),
+        _ => {
+            let (longest, shortest) = (x.max(y).max(1.0), x.min(y).max(1.0));
+            let taps = (longest / shortest).ceil().clamp(1.0, most);
+            let level = (longest / taps).max(1.0).log2();
+            let (du, dv) = if x > y { (r[2], r[3]) } else { (r[4], r[5]) };
+            let tap = |i: usize| {
+                let t = (i as f64 + 0.5) / taps - 0.5;
+                trilinear(levels, u + du * t, v + dv * t, level)
+            };
+            (0..taps as usize).map(tap).sum::<f64>() / taps
+        }
+    }
+}
+
+/// All ways of reading a filtered map, from its own texels. The level's fraction is a sampler's too.
+fn lookups_interpolate(gpu: &Gpu) {
+    let rows: Vec<Row> = rows(11, |r| {
+        let mut side = || r.range(0.25, 3.0).exp2() / 64.0 * if r.unit() < 0.5 { -1.0 } else { 1.0 };
+        let footprint: [f32; 4] = std::array::from_fn(|_| side());
+        let stretch = r.range(1.0, 6.0);
+        row([r.unit(), r.unit(), stretch * footprint[0], stretch * footprint[1], footprint[2], footprint[3]])
+    })
+    .into_iter()
+    // The number of taps jumps where the ratio of the sides is whole, the texel of a nearest lookup
+    // at its border: rounding decides there.
+    .filter(|r| {
+        let ratio = (r[2].hypot(r[3]) / r[4].hypot(r[5])).max(r[4].hypot(r[5]) / r[2].hypot(r[3]));
+        let clear = |v: f32| (v - v.round()).abs() > 1e-3;
+        clear(ratio) && clear(r[0] * 64.0) && clear(r[1] * 64.0)
+    })
+    .collect();
+    for (sampling, wrong) in [
+        ("nearest", "bilinear"),
+        ("bilinear", "nearest"),
+        ("trilinear", "bilinear"),
+        ("anisotropic", "trilinear"),
+    ] {
+        let spec = format!("vsm.anisotropy=5,sampling={sampling}");
+        let shadows = shadows(gpu, technique::parse(&spec).unwrap().as_ref(), 12);
+        let body = "put4(0u, lookup_filtered(shadow_binding_0, shadow_binding_1, take2(0u), 0u, take2(2u), take2(4u)));";
+        let found = run::<4>(gpu, &shadows, body, &rows);
+        let levels = pyramid(gpu, shadows.map_texture(0).unwrap());
+        let error = 2.0 * sampler_error(gpu);
+        let expected = |s: &'static str| {
+            let levels = &levels;
+            move |r: &[f64; INPUTS]| ([looked_up(s, levels, r, 5.0)], error)
+        };
+        compare(&rows, &found, expected(sampling)).unwrap_or_else(|e| panic!("{sampling}: {e}"));
+        compare(&rows, &found, expected(wrong)).unwrap_err();
+    }
+}
+
+fn main() {
+    let mut trials = Trials::default();
+    trials.add_plain("every encode function is compared", || {
+        let device = Capabilities { features: wgpu::Features::empty(), limits: wgpu::Limits::default() };
+        for technique in technique::all() {
+            for map in technique.maps(&device).unwrap() {
+                assert!(ENCODE_FUNCTIONS.contains(&map.encode), "compare {} here", map.encode);
+            }
+        }
+    });
+    trials.add("esm encodes and bounds", esm_encodes_and_bounds);
+    trials.add("vsm encodes", vsm_encodes);
+    trials.add("vsm and chebyshev bound", vsm_and_chebyshev_bound);
+    trials.add("csm sums its series", csm_sums_its_series);
+    trials.add("raster depth is linearised", raster_depth_is_linearised);
+    trials.add("raster depth is cleaned", raster_depth_is_cleaned);
+    trials.add("receivers are projected", receivers_are_projected);
+    trials.add("receiver planes are solved", receiver_planes_are_solved);
+    trials.add("pcf is a weighted sum", pcf_is_a_weighted_sum);
+    trials.add("lookups interpolate", lookups_interpolate);
+    trials.run();
+}
