@@ -154,7 +154,9 @@ pub(super) fn regions(results: &Results) -> String {
         })
         .collect();
     format!(
-        "<h3>Parts of the picture</h3><p>Against the light-space ideal, in the rectangles that the scene names.</p>\
+        "<h3>Parts of the picture</h3><p>Against the light-space ideal, over shadowed pixels only. <b>contact</b>: \
+         the blocker is within a twentieth of the light's depth range. <b>layers</b>: two blockers or more lie \
+         between the surface and the light, as far apart as that.</p>\
          <div class=\"scroll regions\" tabindex=\"0\" role=\"region\" aria-label=\"Parts of the picture\"><table>\
          <thead><tr><th rowspan=\"2\" scope=\"col\">Technique</th>{heads}</tr><tr>{labels}</tr></thead>\
          <tbody>{rows}</tbody></table></div>"
