@@ -31,6 +31,16 @@ pub fn gpu() -> Option<&'static Gpu> {
 /// A device of its own without some features, to take the paths for lesser devices.
 #[must_use]
 pub fn gpu_without(missing: wgpu::Features) -> Option<Gpu> {
+    open(|adapter| (FEATURES.difference(missing), adapter.limits()))
+}
+
+/// A device of its own with some features, as far as the adapter has them, and these limits.
+#[must_use]
+pub fn gpu_with(features: wgpu::Features, limits: wgpu::Limits) -> Option<Gpu> {
+    open(|_| (features, limits))
+}
+
+fn open(choose: impl FnOnce(&wgpu::Adapter) -> (wgpu::Features, wgpu::Limits)) -> Option<Gpu> {
     let backends = wgpu::Backends::PRIMARY;
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
         backends,
@@ -38,9 +48,10 @@ pub fn gpu_without(missing: wgpu::Features) -> Option<Gpu> {
     });
     pollster::block_on(async {
         let adapter = instance.request_adapter(&wgpu::RequestAdapterOptions::default()).await.ok()?;
+        let (features, required_limits) = choose(&adapter);
         let descriptor = wgpu::DeviceDescriptor {
-            required_features: (adapter.features() & FEATURES).difference(missing),
-            required_limits: adapter.limits(),
+            required_features: adapter.features() & features,
+            required_limits,
             ..Default::default()
         };
         let (device, queue) = adapter.request_device(&descriptor).await.ok()?;

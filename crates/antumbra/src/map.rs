@@ -159,7 +159,7 @@ impl ShadowMap {
         technique::check(technique)?;
         let capabilities = Capabilities::of(device);
         let maps = technique.maps(&capabilities)?;
-        check_device(device, &maps, options)?;
+        check_device(device, technique, &maps, options)?;
         let pipelines = options.pipelines.clone().unwrap_or_else(|| Pipelines::new(device));
         let compares = technique.bindings().contains(&Binding::Depth);
         let textures = Textures::new(device, &maps, options, depth, compares);
@@ -356,7 +356,12 @@ impl ShadowMap {
 }
 
 /// Backend, size and layers against the device.
-fn check_device(device: &wgpu::Device, maps: &[Map], options: &Options) -> Result<(), Unsupported> {
+fn check_device(
+    device: &wgpu::Device,
+    technique: &dyn Technique,
+    maps: &[Map],
+    options: &Options,
+) -> Result<(), Unsupported> {
     let backend = device.adapter_info().backend;
     if backend == wgpu::Backend::Gl {
         return Err(Unsupported::Backend { backend: backend.to_string() });
@@ -368,10 +373,22 @@ fn check_device(device: &wgpu::Device, maps: &[Map], options: &Options) -> Resul
         return Err(Unsupported::Size { width, height, max });
     }
     let layers = maps.iter().map(|m| m.layers).max().unwrap_or(1).saturating_mul(options.views);
-    let uniform_views = (limits.max_uniform_buffer_binding_size - 256) / uniforms::VIEW_BYTES;
     let max = limits.max_texture_array_layers;
-    if !(1..=max).contains(&layers) || u64::from(options.views) > uniform_views {
+    if !(1..=max).contains(&layers) {
         return Err(Unsupported::Layers { views: options.views, layers, max });
+    }
+    let room = limits.max_uniform_buffer_binding_size;
+    let most = room.saturating_sub(uniforms::bytes(technique, 0)) / uniforms::VIEW_BYTES;
+    if u64::from(options.views) > most {
+        return Err(Unsupported::Feature {
+            technique: technique.page().name.into(),
+            what: format!(
+                "a uniform binding of {} bytes for {} views ({room} are possible)",
+                uniforms::bytes(technique, options.views),
+                options.views
+            ),
+            instead: format!("take at most {most} views"),
+        });
     }
     Ok(())
 }

@@ -57,7 +57,7 @@ impl Uniforms {
         };
         let alignment = u64::from(device.limits().min_uniform_buffer_offset_alignment);
         let stride = (4 * (1 + settings as u64)).next_multiple_of(16).next_multiple_of(alignment);
-        let receiver = buffer("shadow receiver", room as u64 * VIEW_BYTES + 4 * (1 + scalars.len() as u64));
+        let receiver = buffer("shadow receiver", bytes(technique, options.views));
         Self {
             convert: buffer("shadow convert", room as u64 * stride),
             bytes: Vec::with_capacity(receiver.size().max(room as u64 * stride) as usize),
@@ -103,6 +103,12 @@ impl Uniforms {
             MemoryItem::buffer("convert uniforms", &self.convert),
         ]
     }
+}
+
+/// Size of the receivers' buffer: views, their count, five scalars, settings.
+pub(super) fn bytes(technique: &dyn Technique, views: u32) -> u64 {
+    let scalars = 4 * (6 + technique.uniforms().len() as u64);
+    (u64::from(views) * VIEW_BYTES + scalars).next_multiple_of(16)
 }
 
 /// What follows `views` and `view_count`: size, bias, settings.
