@@ -19,9 +19,9 @@ struct Varying { @builtin(position) clip: vec4f, @location(0) world: vec3f, @loc
 }
 
 @fragment fn fragment(in: Varying) -> @location(0) vec4f {
-    let sun = max(dot(in.normal, normalize(vec3f(0.5, 1.0, -0.3))), 0.0);
+    let sun = max(dot(in.normal, normalize(vec3f(-0.7, 1.0, 0.25))), 0.0);
     let lit = shadow_visibility(in.world, in.normal, dpdx(in.world), dpdy(in.world));
-    return vec4f(vec3f(0.9, 0.85, 0.7) * (0.15 + 0.85 * sun * lit), 1.0);
+    return vec4f(vec3f(0.9, 0.85, 0.7) * (0.2 + 0.05 * in.normal.z + 0.8 * sun * lit), 1.0);
 }";
 
 /// World to clip space.
@@ -45,7 +45,7 @@ pub fn run(device: &wgpu::Device, queue: &wgpu::Queue) -> Result<Vec<u8>, Box<dy
     // 1. A shadow map of any technique, and where its light looks from.
     let mut shadows = ShadowMap::new(device, &Esm::default(), Size::square(1024))?;
     let scene = Bounds { min: Vec3::new(-6.0, -0.2, -6.0), max: Vec3::new(6.0, 2.0, 6.0) };
-    let sun = Light::Directional { direction: Vec3::new(-0.5, -1.0, 0.3) };
+    let sun = Light::Directional { direction: Vec3::new(0.7, -1.0, -0.25) };
     let view = sun.view(&Fit {
         casters: scene,
         receivers: scene.corners().collect(),

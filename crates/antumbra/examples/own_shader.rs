@@ -61,14 +61,15 @@ pub fn camera() -> Mat4 {
         * rh::view::look_at_mat4(Vec3::new(0.0, 4.0, 12.0), Vec3::new(0.0, 1.0, 0.0), Vec3::Y)
 }
 
-/// Ground, and a row of towers on the right that throw shadows across the street.
+/// Ground, and two rows of towers that throw shadows to the left, one in each half of the picture.
 fn street() -> Vec<(Vec3, Vec3)> {
     let tower = |i: i32| {
-        let height = 1.5 + 0.5 * (i % 3) as f32;
-        (Vec3::new(3.5, height, 4.0 - 5.0 * i as f32), Vec3::new(0.5, height, 0.5))
+        let (row, height) = (i % 2, 1.5 + 0.5 * (i / 2 % 3) as f32);
+        let x = if row == 0 { -1.2 } else { 4.0 };
+        (Vec3::new(x, height, 4.0 - 5.0 * (i / 2) as f32), Vec3::new(0.5, height, 0.5))
     };
     let ground = (Vec3::new(0.0, -0.5, -30.0), Vec3::new(20.0, 0.5, 50.0));
-    (0..14).map(tower).chain([ground]).collect()
+    (0..28).map(tower).chain([ground]).collect()
 }
 
 /// The picture, rows of RGBA: the first technique on the left, the second on the right.

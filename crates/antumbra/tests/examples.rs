@@ -1,1 +1,95 @@
-fn main() {}
+//! The examples, as a reader would run them, with what their pictures must show.
+
+use antumbra_testing::{
+    Gpu, Trials,
+    image::{Image, Tolerance},
+};
+use glam::{Mat4, Vec3};
+
+macro_rules! example {
+    ($name:ident, $path:literal) => {
+        #[path = $path]
+        #[allow(dead_code, unreachable_pub, reason = "its main is not called here")]
+        mod $name;
+    };
+}
+example!(hello, "../examples/hello.rs");
+example!(own_shader, "../examples/own_shader.rs");
+example!(own_depth, "../examples/own_depth.rs");
+
+const WIDTH: u32 = 640;
+const HEIGHT: u32 = 480;
+
+/// Brightness of the pixel that sees a world point, 0 to 1.
+fn at(picture: &[u8], camera: Mat4, point: Vec3) -> f32 {
+    let ndc = camera.project_point3(point);
+    assert!(ndc.x.abs() < 1.0 && ndc.y.abs() < 1.0, "{point} is out of the picture");
+    let x = ((0.5 + 0.5 * ndc.x) * WIDTH as f32) as usize;
+    let y = ((0.5 - 0.5 * ndc.y) * HEIGHT as f32) as usize;
+    let pixel = &picture[4 * (y * WIDTH as usize + x)..][..3];
+    pixel.iter().map(|c| f32::from(*c)).sum::<f32>() / (3.0 * 255.0)
+}
+
+/// Where the ground (y = 0) gets the shadow of a point, from a light in that direction.
+fn on_ground(point: Vec3, towards_light: Vec3) -> Vec3 {
+    point - towards_light * (point.y / towards_light.y)
+}
+
+fn check(picture: &[u8], camera: Mat4, lit: &[Vec3], shadowed: &[Vec3]) {
+    assert_eq!(picture.len(), (4 * WIDTH * HEIGHT) as usize);
+    for (l, s) in lit.iter().zip(shadowed) {
+        let (light, dark) = (at(picture, camera, *l), at(picture, camera, *s));
+        assert!(light > 0.35 && dark < 0.6 * light, "{l}: {light}, {s}: {dark}");
+    }
+}
+
+fn hello(gpu: &Gpu) {
+    let picture = hello::run(&gpu.device, &gpu.queue).unwrap();
+    let sun = Vec3::new(-0.7, 1.0, 0.25);
+    let slab = on_ground(Vec3::new(2.5, 1.2, 2.0), sun);
+    let tower = on_ground(Vec3::new(0.5, 1.8, 0.0), sun);
+    check(&picture, hello::camera(), &[Vec3::new(-3.0, 0.0, 3.0), Vec3::new(0.0, 0.0, 4.0)], &[slab, tower]);
+}
+
+/// Both halves, near and far: two cascades at least.
+fn own_shader(gpu: &Gpu) {
+    let picture = own_shader::run(&gpu.device, &gpu.queue, ["hard", "csm"]).unwrap();
+    let sun = Vec3::new(0.64, 0.64, 0.43);
+    let shadow = |x, z| on_ground(Vec3::new(x, 2.0, z), sun);
+    check(
+        &picture,
+        own_shader::camera(),
+        &[
+            Vec3::new(-3.0, 0.0, 5.5),
+            Vec3::new(2.0, 0.0, 5.5),
+            Vec3::new(-4.0, 0.0, -5.0),
+            Vec3::new(1.5, 0.0, -5.0),
+        ],
+        &[shadow(-1.2, 4.0), shadow(4.0, 4.0), shadow(-1.2, -6.0), shadow(4.0, -6.0)],
+    );
+    // The techniques differ along the edges, so the halves cannot have been swapped or shared.
+    let other = own_shader::run(&gpu.device, &gpu.queue, ["csm", "hard"]).unwrap();
+    let image = |bytes| Image { width: WIDTH, height: HEIGHT, channels: 4, bytes };
+    image(picture).compare(&image(other), Tolerance { mean: 0.0, max: 0 }).unwrap_err();
+}
+
+fn own_depth(gpu: &Gpu) {
+    let picture = own_depth::run(&gpu.device, &gpu.queue).unwrap();
+    let lamp = Vec3::new(3.0, 5.0, 1.0);
+    let shadow = |p: Vec3| on_ground(p, lamp - p);
+    let lit = [Vec3::new(-2.0, 0.0, 2.0), Vec3::new(0.0, 0.0, 1.5)];
+    check(
+        &picture,
+        own_depth::camera(),
+        &lit,
+        &[shadow(Vec3::new(0.0, 1.2, 0.0)), shadow(Vec3::new(0.9, 0.7, 1.9))],
+    );
+}
+
+fn main() {
+    let mut trials = Trials::default();
+    trials.add("hello", hello);
+    trials.add("own_shader", own_shader);
+    trials.add("own_depth", own_depth);
+    trials.run();
+}

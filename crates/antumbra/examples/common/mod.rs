@@ -122,6 +122,7 @@ pub fn pipeline(
             })],
         },
         primitive: wgpu::PrimitiveState {
+            cull_mode: Some(wgpu::Face::Back),
             unclipped_depth: clamps && fragment.is_none(),
             ..Default::default()
         },
