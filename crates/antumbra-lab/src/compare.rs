@@ -4,24 +4,26 @@ use crate::{
     gpu::Gpu,
     lighting::{Lighting, Lookup},
     metrics,
-    plane::{Plane, error_heat_map},
-    regions::{Region, regions},
+    plane::error_heat_map,
     report::file_stem,
-    results::{
-        AdapterFacts, BoundsFacts, CameraFacts, Family, Lifetime, LightFacts, MemoryItem, MemoryResult,
-        Program, Results, SCHEMA, SceneFacts, Scores, TechniqueImages, TechniqueResult, TimeResult,
-        TruthFacts, TruthImages,
-    },
+    results::{Program, Results, SCHEMA, Scores, TechniqueImages, TimeResult},
     stage::Stage,
     timing::{self, Entrant},
 };
-use antumbra::{
-    Bounds, Cascades, Kernel, Options, Pipelines, ShadowMap, Size, Technique, View, Weights, technique,
-};
+use antumbra::{Bounds, Cascades, Options, Pipelines, ShadowMap, Size, Technique, View, technique};
 use antumbra_scene::{Camera, Geometry, Light};
-use antumbra_truth::{CameraRays, CoverageTolerance, Hit, MapPlane, Tracer, Visibility};
+use antumbra_truth::{MapPlane, Visibility};
 use anyhow::{Context, Result, bail};
-use std::{collections::BTreeMap, time::Instant};
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    time::Instant,
+};
+
+mod facts;
+mod truths;
+
+pub use facts::adapter_facts;
+use truths::{Truths, plane};
 
 /// What to compare.
 #[derive(Debug, Clone)]
@@ -102,7 +104,11 @@ pub fn techniques(specs: &[String], kernel: u32) -> Result<Vec<Box<dyn Technique
                 let in_family = technique::all().into_iter().filter(|t| t.page().family.name() == family);
                 let names: Vec<String> = in_family.map(|t| t.page().name.into()).collect();
                 if names.is_empty() {
-                    bail!("no techniques of the family '{family}'; families: comparison, basis, geometry");
+                    let all = technique::all();
+                    let known: BTreeSet<String> =
+                        all.iter().map(|t| format!("all-{}", t.page().family.name())).collect();
+                    let known: Vec<String> = known.into_iter().collect();
+                    bail!("'{spec}' names no techniques; groups: all, {}", known.join(", "));
                 }
                 names
             }
@@ -112,12 +118,13 @@ pub fn techniques(specs: &[String], kernel: u32) -> Result<Vec<Box<dyn Technique
             let mut technique = technique::parse(&spec)?;
             let has_kernel = technique.parameters().iter().any(|p| p.name == "kernel");
             if has_kernel && !spec.contains("kernel=") {
-                technique::set(technique.as_mut(), "kernel", &kernel.to_string())?;
+                technique::set(technique.as_mut(), "kernel", &kernel.to_string())
+                    .with_context(|| format!("a kernel of {kernel} texels for every technique"))?;
             }
             list.push(technique);
         }
     }
-    let mut seen = std::collections::BTreeSet::new();
+    let mut seen = BTreeSet::new();
     for technique in &list {
         let spec = technique::spec(technique.as_ref());
         if !seen.insert(spec.clone()) {
@@ -159,15 +166,6 @@ struct Contestant {
     lookup: Lookup,
 }
 
-/// Truths and masks.
-struct Truths {
-    hard: Visibility,
-    light_space: Visibility,
-    screen_space: Visibility,
-    regions: Vec<Region>,
-    facts: TruthFacts,
-}
-
 /// Renders, traces, scores and times.
 ///
 /// # Errors
@@ -183,7 +181,9 @@ pub fn compare(gpu: &Gpu, request: &Request, progress: &dyn Progress) -> Result<
         let options = Options::from(Size::square(request.map_size)).pipelines(&pipelines);
         let shadows = ShadowMap::new(&gpu.device, technique.as_ref(), options)
             .with_context(|| technique::spec(technique.as_ref()))?;
-        contestants.push(Contestant { lookup: Lookup::new(gpu, &stage, &shadows), shadows });
+        let lookup = Lookup::new(gpu, &stage, &shadows);
+        gpu.check().with_context(|| technique::spec(technique.as_ref()))?;
+        contestants.push(Contestant { shadows, lookup });
     }
     let maps: Vec<&ShadowMap> = contestants.iter().map(|c| &c.shadows).collect();
     let view = view(&stage, &request.geometry, &request.light, &maps)?;
@@ -192,7 +192,7 @@ pub fn compare(gpu: &Gpu, request: &Request, progress: &dyn Progress) -> Result<
         contestant.shadows.prepare(&gpu.queue, &[view])?;
     }
     let mut images = BTreeMap::new();
-    let truths = truths(gpu, request, &stage, &view, progress, &mut images)?;
+    let truths = truths::trace(gpu, request, &stage, &view, progress, &mut images)?;
     let mut rendered = Vec::new();
     for (i, contestant) in contestants.iter().enumerate() {
         progress.step(&format!("render {}", technique::spec(contestant.shadows.technique())));
@@ -205,106 +205,32 @@ pub fn compare(gpu: &Gpu, request: &Request, progress: &dyn Progress) -> Result<
         .iter()
         .zip(rendered)
         .zip(times)
-        .map(|((contestant, (scores, regions, images)), time)| {
-            result(&contestant.shadows, scores, regions, images, time)
-        })
+        .map(|((contestant, rendered), time)| facts::technique(&contestant.shadows, rendered, time))
         .collect();
     let results = Results {
         schema: SCHEMA.into(),
         program: Program { name: "antumbra".into(), version: env!("CARGO_PKG_VERSION").into() },
         command: request.command.clone(),
-        scene: scene_facts(request)?,
+        scene: facts::scene(request)?,
         resolution: request.resolution,
         map_size: request.map_size,
         kernel_texels: request.kernel,
         adapter: adapter_facts(gpu),
         truth: truths.facts,
         techniques,
-        peak_memory_bytes: peak_memory(),
+        peak_memory_bytes: facts::peak_memory(),
         seconds_total: start.elapsed().as_secs_f64(),
         files: Vec::new(),
     };
     Ok(Comparison { results, images })
 }
 
-fn plane(visibility: &Visibility) -> Result<Plane> {
-    Ok(Plane::new(visibility.width, visibility.height, visibility.values.clone())?)
+/// What a technique's picture is worth.
+struct Rendered {
+    scores: Scores,
+    regions: BTreeMap<String, metrics::Score>,
+    images: TechniqueImages,
 }
-
-fn truths(
-    gpu: &Gpu,
-    request: &Request,
-    stage: &Stage,
-    view: &View,
-    progress: &dyn Progress,
-    images: &mut BTreeMap<String, Vec<u8>>,
-) -> Result<Truths> {
-    let [width, height] = request.resolution;
-    let (light, geometry) = (&request.light, &request.geometry);
-    let mut clock = Clock::start();
-    progress.step("truth: build");
-    let tracer = Tracer::new(geometry)?;
-    let rays = CameraRays::new(&request.camera, width, height)?;
-    let seconds_build = clock.lap();
-    progress.step("truth: hard");
-    let hard = tracer.hard(&rays, light);
-    let seconds_hard = clock.lap();
-    progress.step("truth: coverage");
-    let hits = tracer.primary(&rays);
-    let coverage =
-        tracer.coverage(&rays, &hits, &stage.triangle_numbers(gpu, geometry)?, CoverageTolerance::default());
-    // A twentieth of the depth range: wider than the ramp of a 16-term Fourier series.
-    let near = 0.05 * f64::from(view.depth_world);
-    let regions = regions(&tracer, &hits, &hard.shadowable, light, near);
-    progress.step("truth: light-space ideal");
-    clock.lap();
-    let taps =
-        Kernel::new(Weights::Gaussian, request.kernel, 0.0).taps.iter().map(|w| f64::from(*w)).collect();
-    let kernel = antumbra_truth::Kernel::new(taps)?;
-    let light_space =
-        tracer.light_space_ideal(&rays, light, &kernel, &map_plane(view), &|s| progress.share(s));
-    let seconds_light_space = clock.lap();
-    progress.step("truth: screen-space ideal");
-    let screen_space = tracer.supersampled(&rays, light, request.grid, &|s| progress.share(s));
-    let seconds_screen_space = clock.lap();
-    let mut save = |name: &str, visibility: &Visibility| -> Result<String> {
-        let file = format!("truth-{name}.png");
-        images.insert(file.clone(), plane(visibility)?.to_gray_png()?);
-        Ok(file)
-    };
-    let facts = TruthFacts {
-        seconds_build,
-        seconds_hard,
-        seconds_light_space,
-        seconds_screen_space,
-        coverage_agreement: coverage.agreement(),
-        coverage_explained: coverage_explained(&coverage, &hits),
-        shadowable_pixels: hard.shadowable.iter().filter(|s| **s).count() as u64,
-        no_shadow: metrics::no_shadow_baseline(&plane(&hard)?, &hard.shadowable)?,
-        images: TruthImages {
-            hard: save("hard", &hard)?,
-            light_space: save("light-space", &light_space)?,
-            screen_space: save("screen-space", &screen_space)?,
-        },
-    };
-    Ok(Truths { hard, light_space, screen_space, regions, facts })
-}
-
-fn coverage_explained(coverage: &antumbra_truth::Coverage, hits: &[Hit]) -> BTreeMap<String, u64> {
-    let background = hits.iter().filter(|h| !h.is_hit()).count();
-    [
-        ("on a shared edge", coverage.edge),
-        ("at equal depth", coverage.depth_tie),
-        ("at a cut-out's border", coverage.cutout),
-        ("unexplained", coverage.unexplained),
-        ("background pixels", background),
-    ]
-    .into_iter()
-    .map(|(name, count)| (name.to_string(), count as u64))
-    .collect()
-}
-
-type Rendered = (Scores, BTreeMap<String, metrics::Score>, TechniqueImages);
 
 fn render(
     gpu: &Gpu,
@@ -331,9 +257,9 @@ fn render(
         light_space: score(&truths.light_space, &truths.light_space.shadowable)?,
         screen_space: score(&truths.screen_space, &truths.screen_space.shadowable)?,
     };
-    let mut by_region = BTreeMap::new();
+    let mut regions = BTreeMap::new();
     for region in truths.regions.iter().filter(|r| r.pixels.contains(&true)) {
-        by_region.insert(region.name.to_string(), score(&truths.light_space, &region.pixels)?);
+        regions.insert(region.name.to_string(), score(&truths.light_space, &region.pixels)?);
     }
     let stem = file_stem(&spec);
     let mut save = |kind: &str, bytes: Vec<u8>| {
@@ -344,13 +270,13 @@ fn render(
     let error = |truth: &Visibility| -> Result<Vec<u8>> {
         Ok(error_heat_map(&test, &plane(truth)?, &truth.shadowable)?.to_png()?)
     };
-    let technique_images = TechniqueImages {
+    let images = TechniqueImages {
         picture: save("picture.png", picture.to_png()?),
         visibility: save("visibility.png", test.to_gray_png()?),
         error_hard: save("error-hard.png", error(&truths.hard)?),
         error_light_space: save("error-light-space.png", error(&truths.light_space)?),
     };
-    Ok((scores, by_region, technique_images))
+    Ok(Rendered { scores, regions, images })
 }
 
 /// Times all contestants and, for reference, shading without shadows and the standard shadow map
@@ -378,121 +304,4 @@ fn time(
         time.lookup_ratio_to_hard = ratio.filter(|r| r.is_finite() && *r >= 0.0);
     }
     Ok(times)
-}
-
-fn result(
-    shadows: &ShadowMap,
-    scores: Scores,
-    regions: BTreeMap<String, metrics::Score>,
-    images: TechniqueImages,
-    time: TimeResult,
-) -> TechniqueResult {
-    let page = shadows.technique().page();
-    let mut technique = shadows.technique().boxed();
-    let settings = technique.parameters().iter().map(|p| (p.name.to_string(), value(&p.value()))).collect();
-    let memory = shadows.memory();
-    let items = memory
-        .items
-        .iter()
-        .map(|item| MemoryItem {
-            name: item.name.clone(),
-            format: item.format.to_lowercase(),
-            width: item.width,
-            height: item.height,
-            layers: item.layers,
-            mips: item.mips,
-            bytes: item.bytes,
-            kept: match item.lifetime {
-                antumbra::Lifetime::Kept => Lifetime::Kept,
-                antumbra::Lifetime::Transient | antumbra::Lifetime::Borrowed => Lifetime::Transient,
-            },
-        })
-        .collect();
-    TechniqueResult {
-        name: page.name.into(),
-        spec: technique::spec(shadows.technique()),
-        title: page.title.into(),
-        family: match page.family {
-            technique::Family::Comparison => Family::Comparison,
-            technique::Family::Basis => Family::Basis,
-            technique::Family::Geometry => Family::Geometry,
-        },
-        paper: page.paper.into(),
-        settings,
-        scores,
-        regions,
-        time,
-        memory: MemoryResult {
-            items,
-            kept_bytes: memory.bytes(antumbra::Lifetime::Kept),
-            transient_bytes: memory.bytes(antumbra::Lifetime::Transient),
-        },
-        explain: shadows.explain(),
-        images,
-    }
-}
-
-/// A number where the text is one.
-fn value(text: &str) -> serde_json::Value {
-    serde_json::from_str(text).unwrap_or_else(|_| text.into())
-}
-
-fn scene_facts(request: &Request) -> Result<SceneFacts> {
-    let bounds = request.geometry.bounds().context("the scene has no triangles")?;
-    let camera = &request.camera;
-    Ok(SceneFacts {
-        name: request.scene.clone(),
-        triangles: request.geometry.triangle_count() as u64,
-        light: match request.light {
-            Light::Directional { direction } => LightFacts::Directional { direction: direction.to_array() },
-            Light::Spot { position, direction, outer_angle } => LightFacts::Spot {
-                position: position.to_array(),
-                direction: direction.to_array(),
-                outer_angle_deg: outer_angle.to_degrees(),
-            },
-        },
-        camera: CameraFacts {
-            position: camera.position.to_array(),
-            target: camera.target.to_array(),
-            up: camera.up.to_array(),
-            fov_y_deg: camera.fov_y.to_degrees(),
-        },
-        bounds: BoundsFacts { min: bounds.min.to_array(), max: bounds.max.to_array() },
-    })
-}
-
-/// What a GPU says of itself.
-#[must_use]
-pub fn adapter_facts(gpu: &Gpu) -> AdapterFacts {
-    // The software driver's precision depends on this variable, so it belongs to the driver's name.
-    let tuning = std::env::var("GALLIVM_PERF").ok().filter(|_| gpu.info.device_type == wgpu::DeviceType::Cpu);
-    let tuning = tuning.map(|value| format!(" GALLIVM_PERF={value}")).unwrap_or_default();
-    AdapterFacts {
-        name: gpu.info.name.clone(),
-        driver: format!("{} {}{tuning}", gpu.info.driver, gpu.info.driver_info).trim().into(),
-        backend: gpu.info.backend.to_string(),
-        device_type: format!("{:?}", gpu.info.device_type).to_lowercase(),
-        features: gpu.features(),
-    }
-}
-
-/// Seconds between calls.
-struct Clock(Instant);
-
-impl Clock {
-    fn start() -> Self {
-        Self(Instant::now())
-    }
-    fn lap(&mut self) -> f64 {
-        let seconds = self.0.elapsed().as_secs_f64();
-        self.0 = Instant::now();
-        seconds
-    }
-}
-
-/// Most memory that this process held, where Linux tells.
-fn peak_memory() -> Option<u64> {
-    let status = std::fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
-    line.split_whitespace().next()?.parse::<u64>().ok().map(|kib| kib * 1024)
 }

@@ -45,6 +45,8 @@ fn reason(error: &io::Error) -> String {
         io::ErrorKind::PermissionDenied => "permission denied".into(),
         io::ErrorKind::ReadOnlyFilesystem => "the file system is read-only".into(),
         io::ErrorKind::NotFound => "no such file or folder".into(),
+        io::ErrorKind::AlreadyExists | io::ErrorKind::NotADirectory => "a file is in its way".into(),
+        io::ErrorKind::IsADirectory => "it is a folder".into(),
         _ => error.to_string(),
     }
 }
@@ -97,7 +99,7 @@ pub fn write_folder<E: From<FileError>>(
 ) -> Result<PathBuf, E> {
     // Through links and "..", so that it is the folder that is replaced and not a link to it.
     let out = if out.exists() { out.canonicalize().map_err(failed("open", out))? } else { out.to_owned() };
-    refuse_if_foreign(&out)?;
+    check_folder(&out)?;
     let partial = beside(&out, "partial")?;
     create_parent(&out)?;
     fs::create_dir(&partial).map_err(failed("create", &partial))?;
@@ -111,7 +113,7 @@ pub fn write_folder<E: From<FileError>>(
 
 fn put_in_place(partial: &Path, out: &Path) -> Result<(), FileError> {
     // Again, since filling took a while.
-    refuse_if_foreign(out)?;
+    check_folder(out)?;
     if !out.exists() {
         return fs::rename(partial, out).map_err(failed("write", out));
     }
@@ -124,8 +126,12 @@ fn put_in_place(partial: &Path, out: &Path) -> Result<(), FileError> {
     fs::remove_dir_all(&old).map_err(failed("remove", &old))
 }
 
-/// Passes if there is nothing, an empty folder, or a report of ours that nobody added to.
-fn refuse_if_foreign(out: &Path) -> Result<(), FileError> {
+/// Whether [`write_folder`] may write there: if there is nothing, an empty folder, or a report of
+/// ours that nobody added to.
+///
+/// # Errors
+/// [`FileError::NotOurs`], or [`FileError::Io`] if the folder cannot be listed.
+pub fn check_folder(out: &Path) -> Result<(), FileError> {
     if !out.exists() {
         return Ok(());
     }

@@ -1,7 +1,7 @@
 //! The graphics device of the lab, and reading back from it.
 
 use anyhow::{Context, Result, bail};
-use std::sync::mpsc;
+use std::sync::{Arc, Mutex, PoisonError, mpsc};
 
 /// Device, queue and what they are.
 #[derive(Debug)]
@@ -12,6 +12,8 @@ pub struct Gpu {
     pub queue: wgpu::Queue,
     /// Name, driver, backend.
     pub info: wgpu::AdapterInfo,
+    /// The first error that the device reported outside of every error scope.
+    error: Arc<Mutex<Option<wgpu::Error>>>,
 }
 
 /// What the library and the lab can use but do without.
@@ -59,8 +61,40 @@ impl Gpu {
                 })
                 .await
                 .with_context(|| format!("{} gave no device", info.name))?;
-            Ok(Self { device, queue, info })
+            Ok(Self::adopt(device, queue, info))
         })
+    }
+
+    /// A device that the caller has opened. From now on an error that it reports outside of every
+    /// error scope is kept for [`check`](Self::check), where it would have ended the program.
+    #[must_use]
+    pub fn adopt(device: wgpu::Device, queue: wgpu::Queue, info: wgpu::AdapterInfo) -> Self {
+        let error = Arc::new(Mutex::new(None));
+        let slot = Arc::clone(&error);
+        device.on_uncaptured_error(Arc::new(move |error| {
+            // Later ones follow from the first.
+            slot.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
+        }));
+        Self { device, queue, info, error }
+    }
+
+    /// Whether the device has accepted everything since the last check. Whatever it refused since
+    /// then has no effect.
+    ///
+    /// # Errors
+    /// The first thing that it refused.
+    pub fn check(&self) -> Result<()> {
+        match self.error.lock().unwrap_or_else(PoisonError::into_inner).take() {
+            None => Ok(()),
+            Some(wgpu::Error::OutOfMemory { .. }) => {
+                bail!("{} is out of memory: try a smaller map or a lower resolution", self.info.name)
+            }
+            Some(error) => {
+                let text = error.to_string();
+                let words: Vec<&str> = text.split_whitespace().collect();
+                bail!("{} refused: {}", self.info.name, words.join(" "))
+            }
+        }
     }
 
     /// Names of the optional features in use.
@@ -85,17 +119,19 @@ impl Gpu {
     /// Submits and waits until the device is done.
     ///
     /// # Errors
-    /// If the device is lost.
+    /// As [`check`](Self::check), or if the device is lost.
     pub fn finish(&self, encoder: wgpu::CommandEncoder) -> Result<()> {
-        self.queue.submit([encoder.finish()]);
+        let commands = encoder.finish();
+        self.check()?;
+        self.queue.submit([commands]);
         self.device.poll(wgpu::PollType::wait_indefinitely()).context("the device was lost")?;
-        Ok(())
+        self.check()
     }
 
     /// All bytes of a texture's first level, rows without padding. Waits.
     ///
     /// # Errors
-    /// If the device is lost.
+    /// As [`check`](Self::check), or if the device is lost.
     pub fn read(&self, texture: &wgpu::Texture) -> Result<Vec<u8>> {
         let row =
             texture.width() * texture.format().block_copy_size(None).context("format cannot be copied")?;
@@ -119,7 +155,7 @@ impl Gpu {
             },
             wgpu::Extent3d { width: texture.width(), height: texture.height(), depth_or_array_layers: 1 },
         );
-        self.queue.submit([encoder.finish()]);
+        self.finish(encoder)?;
         let bytes = self.map(&staging)?;
         Ok(bytes.chunks(padded as usize).flat_map(|line| &line[..row as usize]).copied().collect())
     }

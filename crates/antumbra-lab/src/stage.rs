@@ -82,7 +82,6 @@ pub struct Stage {
     materials: Materials,
     pipelines: Pipelines,
     camera_matrix: Mat4,
-    frame: Frame,
     frame_group: wgpu::BindGroup,
     light_buffer: wgpu::Buffer,
     light_group: wgpu::BindGroup,
@@ -93,7 +92,7 @@ impl Stage {
     /// Uploads a scene and prepares the pictures of one camera under one light.
     ///
     /// # Errors
-    /// Resolution of zero or beyond the device's limit, too much geometry, lost device.
+    /// Resolution of zero or beyond the device's limit, too much geometry; as [`Gpu::check`].
     pub fn new(
         gpu: &Gpu,
         geometry: &Geometry,
@@ -115,14 +114,8 @@ impl Stage {
                 color: geometry.colors[i].to_array(),
             })
             .collect();
-        let bytes = std::mem::size_of_val(attributes.as_slice()) as u64;
-        if bytes > limits.max_buffer_size {
-            bail!(
-                "{} vertices need a buffer of {bytes} bytes; the device allows {}",
-                attributes.len(),
-                limits.max_buffer_size
-            );
-        }
+        check_buffer(gpu, "vertices", attributes.len(), size_of::<Attributes>())?;
+        check_buffer(gpu, "corners of triangles", geometry.indices.len(), size_of::<u32>())?;
         let (mut frame, camera_matrix) = Frame::new(camera, resolution, bounds.radius().max(1e-3) * 1e-4);
         (frame.to_light, frame.cone[0]) = match *light {
             antumbra_scene::Light::Directional { direction } => ((-direction).extend(0.0).to_array(), -2.0),
@@ -146,7 +139,7 @@ impl Stage {
             })
         };
         let masked = |m: usize| matches!(geometry.materials[m].alpha, AlphaMode::Mask { .. });
-        Ok(Self {
+        let stage = Self {
             positions: gpu.buffer("positions", bytemuck::cast_slice(&geometry.positions), Usage::VERTEX),
             attributes: gpu.buffer("attributes", bytemuck::cast_slice(&attributes), Usage::VERTEX),
             indices: gpu.buffer("indices", bytemuck::cast_slice(&geometry.indices), Usage::INDEX),
@@ -157,9 +150,10 @@ impl Stage {
             materials,
             pipelines,
             camera_matrix,
-            frame,
             light_buffer,
-        })
+        };
+        gpu.check()?;
+        Ok(stage)
     }
 
     /// World to clip space of the camera, reversed infinite depth: for fitting light views.
@@ -223,8 +217,9 @@ impl Stage {
     /// `u32::MAX` for background. For the coverage check; waits.
     ///
     /// # Errors
-    /// If the device is lost.
+    /// Too much geometry, as [`Gpu::check`], or if the device is lost.
     pub fn triangle_numbers(&self, gpu: &Gpu, geometry: &Geometry) -> Result<Vec<u32>> {
+        check_buffer(gpu, "corners of triangles", geometry.indices.len(), size_of::<Attributes>())?;
         // Without an index buffer the number of a vertex tells its triangle on every device.
         let corner = |i: &u32| *i as usize;
         let positions: Vec<Vec3> = geometry.indices.iter().map(|i| geometry.positions[corner(i)]).collect();
@@ -269,12 +264,15 @@ impl Stage {
         let words = bytes.chunks_exact(4).map(|b| u32::from_ne_bytes([b[0], b[1], b[2], b[3]]));
         Ok(words.map(|n| n.wrapping_sub(1)).collect())
     }
+}
 
-    /// For tests of the uniform layout.
-    #[must_use]
-    pub fn frame_bytes(&self) -> &[u8] {
-        bytemuck::bytes_of(&self.frame)
+/// Whether a buffer of `count` things of `size` bytes is possible.
+fn check_buffer(gpu: &Gpu, what: &str, count: usize, size: usize) -> Result<()> {
+    let (bytes, most) = (count as u64 * size as u64, gpu.device.limits().max_buffer_size);
+    if bytes > most {
+        bail!("{count} {what} need a buffer of {bytes} bytes; {} allows {most}", gpu.info.name);
     }
+    Ok(())
 }
 
 /// Layout entry of a texture that is loaded, not sampled.

@@ -14,7 +14,7 @@ use antumbra::{Probe, ShadowMap};
 use anyhow::Result;
 use std::time::Instant;
 
-/// Most passes of one frame that are timed; the rest is summed up under the last name.
+/// Most passes of one frame that are timed.
 const MOST_PASSES: u32 = 1024;
 
 /// Timestamps around each pass of a frame.

@@ -1,0 +1,112 @@
+//! What the results say of techniques, scene and machine.
+
+use super::{Rendered, Request};
+use crate::{
+    gpu::Gpu,
+    results::{
+        AdapterFacts, BoundsFacts, CameraFacts, Family, Lifetime, LightFacts, MemoryItem, MemoryResult,
+        SceneFacts, TechniqueResult, TimeResult,
+    },
+};
+use antumbra::{Memory, ShadowMap, technique};
+use antumbra_scene::Light;
+use anyhow::{Context, Result};
+
+/// One entry of the results.
+pub(super) fn technique(shadows: &ShadowMap, rendered: Rendered, time: TimeResult) -> TechniqueResult {
+    let page = shadows.technique().page();
+    let mut technique = shadows.technique().boxed();
+    let settings = technique.parameters().iter().map(|p| (p.name.to_string(), value(&p.value()))).collect();
+    let Rendered { scores, regions, images } = rendered;
+    TechniqueResult {
+        name: page.name.into(),
+        spec: technique::spec(shadows.technique()),
+        title: page.title.into(),
+        family: match page.family {
+            technique::Family::Comparison => Family::Comparison,
+            technique::Family::Basis => Family::Basis,
+            technique::Family::Geometry => Family::Geometry,
+        },
+        paper: page.paper.into(),
+        settings,
+        scores,
+        regions,
+        time,
+        memory: memory(&shadows.memory()),
+        explain: shadows.explain(),
+        images,
+    }
+}
+
+fn memory(memory: &Memory) -> MemoryResult {
+    let item = |item: &antumbra::MemoryItem| MemoryItem {
+        name: item.name.clone(),
+        format: item.format.to_lowercase(),
+        width: item.width,
+        height: item.height,
+        layers: item.layers,
+        mips: item.mips,
+        bytes: item.bytes,
+        kept: match item.lifetime {
+            antumbra::Lifetime::Kept => Lifetime::Kept,
+            antumbra::Lifetime::Transient | antumbra::Lifetime::Borrowed => Lifetime::Transient,
+        },
+    };
+    MemoryResult {
+        items: memory.items.iter().map(item).collect(),
+        kept_bytes: memory.bytes(antumbra::Lifetime::Kept),
+        transient_bytes: memory.bytes(antumbra::Lifetime::Transient),
+    }
+}
+
+/// A number where the text is one.
+fn value(text: &str) -> serde_json::Value {
+    serde_json::from_str(text).unwrap_or_else(|_| text.into())
+}
+
+/// What was rendered.
+pub(super) fn scene(request: &Request) -> Result<SceneFacts> {
+    let bounds = request.geometry.bounds().context("the scene has no triangles")?;
+    let camera = &request.camera;
+    Ok(SceneFacts {
+        name: request.scene.clone(),
+        triangles: request.geometry.triangle_count() as u64,
+        light: match request.light {
+            Light::Directional { direction } => LightFacts::Directional { direction: direction.to_array() },
+            Light::Spot { position, direction, outer_angle } => LightFacts::Spot {
+                position: position.to_array(),
+                direction: direction.to_array(),
+                outer_angle_deg: outer_angle.to_degrees(),
+            },
+        },
+        camera: CameraFacts {
+            position: camera.position.to_array(),
+            target: camera.target.to_array(),
+            up: camera.up.to_array(),
+            fov_y_deg: camera.fov_y.to_degrees(),
+        },
+        bounds: BoundsFacts { min: bounds.min.to_array(), max: bounds.max.to_array() },
+    })
+}
+
+/// What a GPU says of itself.
+#[must_use]
+pub fn adapter_facts(gpu: &Gpu) -> AdapterFacts {
+    // The software driver's precision depends on this variable, so it belongs to the driver's name.
+    let tuning = std::env::var("GALLIVM_PERF").ok().filter(|_| gpu.info.device_type == wgpu::DeviceType::Cpu);
+    let tuning = tuning.map(|value| format!(" GALLIVM_PERF={value}")).unwrap_or_default();
+    AdapterFacts {
+        name: gpu.info.name.clone(),
+        driver: format!("{} {}{tuning}", gpu.info.driver, gpu.info.driver_info).trim().into(),
+        backend: gpu.info.backend.to_string(),
+        device_type: format!("{:?}", gpu.info.device_type).to_lowercase(),
+        features: gpu.features(),
+    }
+}
+
+/// Most memory that this process held, where Linux tells.
+pub(super) fn peak_memory() -> Option<u64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    line.split_whitespace().next()?.parse::<u64>().ok().map(|kib| kib * 1024)
+}
