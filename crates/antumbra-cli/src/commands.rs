@@ -4,6 +4,7 @@ use crate::arguments::{Arguments, Command};
 use antumbra::SettingError;
 use anyhow::Result;
 use clap::CommandFactory;
+use std::io::Write;
 
 mod bench;
 mod compare;
@@ -21,8 +22,9 @@ pub(crate) fn run(arguments: Arguments) -> Result<()> {
         Command::Scenes(arguments) => info::scenes(arguments.json),
         Command::Info(arguments) => info::adapter(arguments.json),
         Command::Completions { shell } => {
-            clap_complete::generate(shell, &mut Arguments::command(), "antumbra", &mut std::io::stdout());
-            Ok(())
+            let mut script = Vec::new();
+            clap_complete::generate(shell, &mut Arguments::command(), "antumbra", &mut script);
+            Ok(std::io::stdout().write_all(&script)?)
         }
     }
 }
@@ -40,7 +42,11 @@ pub(crate) fn hint(error: &anyhow::Error) -> Option<String> {
 /// The known name that resembles a wrong one most, if any does.
 pub(crate) fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     known
-        .map(|k| (strsim::jaro_winkler(name, k), k))
+        .map(|k| {
+            // The second also knows swapped letters in short names.
+            let likeness = strsim::jaro_winkler(name, k).max(strsim::normalized_damerau_levenshtein(name, k));
+            (likeness, k)
+        })
         .filter(|(likeness, _)| *likeness > 0.6)
         .max_by(|a, b| a.0.total_cmp(&b.0))
         .map(|(_, k)| k)

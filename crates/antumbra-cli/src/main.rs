@@ -2,6 +2,7 @@
 
 mod arguments;
 mod commands;
+mod output;
 mod progress;
 mod scene;
 
@@ -12,8 +13,10 @@ fn main() -> ExitCode {
     tune_software_driver();
     match commands::run(arguments::Arguments::parse()) {
         Ok(()) => ExitCode::SUCCESS,
+        // Whoever was listening has heard enough (`antumbra techniques | head`).
+        Err(error) if output::is_closed(&error) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("error: {error:#}");
+            eprintln!("error: {}", output::message(&error));
             if let Some(hint) = commands::hint(&error) {
                 eprintln!("  {hint}");
             }

@@ -16,15 +16,21 @@ pub(crate) struct Setting {
     pub(crate) resolution: [u32; 2],
 }
 
-/// Loads and checks everything before any work is done.
-pub(crate) fn load(arguments: &SceneArguments) -> Result<Setting> {
-    let resolution = resolution(&arguments.resolution)?;
+/// Checks the numbers, which is quick.
+pub(crate) fn check(arguments: &SceneArguments) -> Result<()> {
+    resolution(&arguments.resolution)?;
     if arguments.size == 0 {
         bail!("--size 0: a shadow map has at least 1 texel");
     }
     if !(1..=31).contains(&arguments.kernel) {
         bail!("--kernel {}: allowed are 1 to 31 texels", arguments.kernel);
     }
+    Ok(())
+}
+
+/// Loads and checks everything before any work is done.
+pub(crate) fn load(arguments: &SceneArguments) -> Result<Setting> {
+    let resolution = resolution(&arguments.resolution)?;
     let scene = open(&arguments.scene, arguments.seed)?;
     scene.validate().with_context(|| arguments.scene.clone())?;
     let camera = match &arguments.camera {
@@ -48,6 +54,9 @@ fn open(name: &str, seed: u64) -> Result<Scene> {
         let nearest = crate::commands::nearest(name, known.iter().copied());
         let hint = nearest.map(|n| format!("; did you mean {n}?")).unwrap_or_default();
         bail!("no built-in scene and no file is called '{name}'; built-in: {}{hint}", known.join(", "));
+    }
+    if path.is_dir() {
+        bail!("{name} is a folder; give a .glb, .gltf or .obj file in it");
     }
     Ok(import::load(path)?)
 }
@@ -91,11 +100,13 @@ fn camera(text: &str, scene: &Scene) -> Result<Camera> {
         [eye, target, fov] => (vector(eye)?, vector(target)?, degrees(fov, 170.0)?),
         _ => bail!("write eye:target or eye:target:degrees, for example 3,2,5:0,1,0:50"),
     };
-    let forward = target - eye;
-    if forward.length() == 0.0 {
+    if eye == target {
         bail!("eye and target are the same point {eye}");
     }
-    let up = if forward.normalize().y.abs() > 0.999 { Vec3::Z } else { Vec3::Y };
+    let forward = (target - eye)
+        .try_normalize()
+        .with_context(|| format!("eye {eye} and target {target} are too near or too far from each other"))?;
+    let up = if forward.y.abs() > 0.999 { Vec3::Z } else { Vec3::Y };
     Ok(Camera { position: eye, target, up, fov_y })
 }
 
@@ -110,7 +121,9 @@ fn light(text: &str, scene: &Scene) -> Result<Light> {
     }
     let direction = |text: &str| -> Result<Vec3> {
         let direction = vector(text)?;
-        direction.try_normalize().with_context(|| format!("direction {text} has no length"))
+        direction
+            .try_normalize()
+            .with_context(|| format!("direction {text} has no length, or one beyond what an f32 holds"))
     };
     let Some(spot) = text.strip_prefix("spot:") else {
         return Ok(Light::Directional { direction: direction(text)? });
@@ -144,9 +157,17 @@ mod tests {
     #[test]
     fn unreadable_ones_are_refused_with_an_example() {
         let scene = procedural::by_name("contact").unwrap().scene(1);
-        for text in
-            ["", "1,2", "1,2,3", "1,2,3:1,2,3", "1,2,nan:0,0,0", "1,2,3:0,0,0:0", "1,2,3:0,0,0:inf", "99"]
-        {
+        for text in [
+            "",
+            "1,2",
+            "1,2,3",
+            "1,2,3:1,2,3",
+            "1,2,nan:0,0,0",
+            "3e38,0,0:-3e38,0,0",
+            "1,2,3:0,0,0:0",
+            "1,2,3:0,0,0:inf",
+            "99",
+        ] {
             assert!(camera(text, &scene).is_err(), "{text}");
         }
         for text in ["", "0,0,0", "spot:1,2,3", "spot:0,0,0:0,-1,0:95", "1,2,x", "77"] {

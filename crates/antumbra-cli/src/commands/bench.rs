@@ -12,12 +12,16 @@ use antumbra_lab::{
 };
 use antumbra_truth::{CameraRays, Tracer};
 use anyhow::{Result, bail};
-use std::time::Instant;
+use std::{
+    io::{self, Write},
+    time::Instant,
+};
 
 pub(crate) fn run(arguments: &Bench) -> Result<()> {
     if arguments.rounds == 0 {
-        bail!("--rounds must be at least 1");
+        bail!("--rounds 0: at least 1 frame has to be timed");
     }
+    scene::check(&arguments.scene)?;
     let techniques = compare::techniques(&arguments.techniques, arguments.scene.kernel)?;
     let setting = scene::load(&arguments.scene)?;
     let gpu = Gpu::new()?;
@@ -50,13 +54,14 @@ pub(crate) fn run(arguments: &Bench) -> Result<()> {
     drop(bar);
     let names =
         std::iter::once("none".to_string()).chain(techniques.iter().map(|t| technique::spec(t.as_ref())));
+    let out = &mut io::stdout();
     if arguments.json {
         let times: serde_json::Map<String, serde_json::Value> = names
             .zip(&times)
             .map(|(name, time)| Ok((name, serde_json::to_value(time)?)))
             .collect::<Result<_>>()?;
         let all = serde_json::json!({ "truth_hard_seconds": truth, "techniques": times });
-        println!("{}", serde_json::to_string_pretty(&all)?);
+        writeln!(out, "{}", serde_json::to_string_pretty(&all)?)?;
         return Ok(());
     }
     const PASSES: [&str; 6] = ["cast", "convert", "blur", "mips", "surfaces", "lookup"];
@@ -71,10 +76,14 @@ pub(crate) fn run(arguments: &Bench) -> Result<()> {
                 .collect()
         })
         .collect();
-    println!("median milliseconds over {} rounds; frame: wall clock with its extremes", arguments.rounds);
+    writeln!(
+        out,
+        "median milliseconds over {} rounds; frame: wall clock with its extremes",
+        arguments.rounds
+    )?;
     let header =
         ["technique", "cast", "convert", "blur", "mips", "surfaces", "lookup", "frame", "min", "max"];
-    table::print(&header, &rows);
-    println!("ray-traced hard truth, acceleration structure included: {truth:.2} s");
+    table::print(out, &header, &rows)?;
+    writeln!(out, "ray-traced hard truth, acceleration structure included: {truth:.2} s")?;
     Ok(())
 }

@@ -4,16 +4,23 @@ use super::table;
 use crate::{arguments::Compare, progress::Bar, scene};
 use antumbra_lab::{
     compare::{self, Request},
+    files,
     gpu::Gpu,
     report,
     results::Results,
 };
 use anyhow::{Result, bail};
+use std::io::{self, Write};
 
 pub(crate) fn run(arguments: &Compare) -> Result<()> {
-    if arguments.rounds == 0 || arguments.grid == 0 || arguments.grid > 16 {
-        bail!("--rounds must be at least 1, --grid 1 to 16");
+    if arguments.rounds == 0 {
+        bail!("--rounds 0: at least 1 frame has to be timed");
     }
+    if !(1..=16).contains(&arguments.grid) {
+        bail!("--grid {}: allowed are 1 to 16 rays along one side of a pixel", arguments.grid);
+    }
+    scene::check(&arguments.scene)?;
+    files::check_folder(&arguments.output)?;
     let techniques = compare::techniques(&arguments.techniques, arguments.scene.kernel)?;
     let setting = scene::load(&arguments.scene)?;
     let gpu = Gpu::new()?;
@@ -28,25 +35,32 @@ pub(crate) fn run(arguments: &Compare) -> Result<()> {
         resolution: setting.resolution,
         grid: arguments.grid,
         rounds: arguments.rounds,
-        command: std::iter::once("antumbra".to_string()).chain(std::env::args().skip(1)).collect(),
+        command: std::iter::once("antumbra".to_string()).chain(arguments_given()).collect(),
     };
     let comparison = {
         let bar = Bar::new();
         compare::compare(&gpu, &request, &bar)?
     };
     let folder = report::write(&comparison.results, &comparison.images, &arguments.output)?;
+    let out = &mut io::stdout();
     if arguments.json {
-        println!("{}", comparison.results.to_json()?);
+        writeln!(out, "{}", comparison.results.to_json()?)?;
     } else {
-        print(&comparison.results);
-        println!("\nreport: {}", folder.join("index.html").display());
+        print(out, &comparison.results)?;
+        writeln!(out, "\nreport: {}", folder.join("index.html").display())?;
     }
     Ok(())
 }
 
-fn print(results: &Results) {
+/// As typed, but for what is no Unicode.
+fn arguments_given() -> impl Iterator<Item = String> {
+    std::env::args_os().skip(1).map(|argument| argument.to_string_lossy().into_owned())
+}
+
+fn print(out: &mut impl Write, results: &Results) -> Result<()> {
     let truth = &results.truth;
-    println!(
+    writeln!(
+        out,
         "{}: {} triangles, {}x{} pixels, map {}x{}, kernel {}; raster and rays agree on {:.3} % of pixels",
         results.scene.name,
         results.scene.triangles,
@@ -56,7 +70,7 @@ fn print(results: &Results) {
         results.map_size,
         results.kernel_texels,
         100.0 * truth.coverage_agreement,
-    );
+    )?;
     let percent = |v: Option<f64>| v.map_or("-".into(), |v| format!("{:.2}", 100.0 * v));
     let rows: Vec<Vec<String>> = results
         .techniques
@@ -78,6 +92,7 @@ fn print(results: &Results) {
         })
         .collect();
     table::print(
+        out,
         &[
             "technique",
             "RMSE",
@@ -91,6 +106,11 @@ fn print(results: &Results) {
             "MiB",
         ],
         &rows,
-    );
-    println!("no shadow at all matches {:.2} % of shadowable pixels", 100.0 * truth.no_shadow.pixel_match);
+    )?;
+    writeln!(
+        out,
+        "no shadow at all matches {:.2} % of shadowable pixels",
+        100.0 * truth.no_shadow.pixel_match
+    )?;
+    Ok(())
 }

@@ -6,8 +6,10 @@ use antumbra_lab::{compare, gpu::Gpu};
 use antumbra_scene::procedural;
 use anyhow::Result;
 use serde_json::json;
+use std::io::{self, Write};
 
 pub(crate) fn techniques(as_json: bool) -> Result<()> {
+    let out = &mut io::stdout();
     let mut list = Vec::new();
     for mut technique in technique::all() {
         let page = technique.page();
@@ -25,7 +27,7 @@ pub(crate) fn techniques(as_json: bool) -> Result<()> {
             }));
             continue;
         }
-        println!("{}  {} ({}; {})", page.name, page.title, page.family.name(), page.paper);
+        writeln!(out, "{}  {} ({}; {})", page.name, page.title, page.family.name(), page.paper)?;
         let rows: Vec<Vec<String>> = parameters
             .iter()
             .map(|p| {
@@ -34,19 +36,20 @@ pub(crate) fn techniques(as_json: bool) -> Result<()> {
             })
             .collect();
         if !rows.is_empty() {
-            table::print(&["  parameter", "default", "allowed", "meaning"], &rows);
+            table::print(out, &["  parameter", "default", "allowed", "meaning"], &rows)?;
         }
-        println!();
+        writeln!(out)?;
     }
     if as_json {
-        println!("{}", serde_json::to_string_pretty(&list)?);
+        writeln!(out, "{}", serde_json::to_string_pretty(&list)?)?;
     } else {
-        println!("write a technique with settings as name.parameter=value,parameter=value");
+        writeln!(out, "write a technique with settings as name.parameter=value,parameter=value")?;
     }
     Ok(())
 }
 
 pub(crate) fn scenes(as_json: bool) -> Result<()> {
+    let out = &mut io::stdout();
     if as_json {
         let list: Vec<_> = procedural::all()
             .iter()
@@ -54,14 +57,15 @@ pub(crate) fn scenes(as_json: bool) -> Result<()> {
                 json!({ "name": p.name, "triangles": p.triangles, "description": p.description, "stresses": p.stresses, "source": p.source })
             })
             .collect();
-        println!("{}", serde_json::to_string_pretty(&list)?);
+        writeln!(out, "{}", serde_json::to_string_pretty(&list)?)?;
         return Ok(());
     }
     for p in procedural::all() {
-        println!(
+        writeln!(
+            out,
             "{}  {} triangles\n  {}\n  stresses: {}\n  after: {}\n",
             p.name, p.triangles, p.description, p.stresses, p.source
-        );
+        )?;
     }
     Ok(())
 }
@@ -76,30 +80,33 @@ pub(crate) fn adapter(as_json: bool) -> Result<()> {
         choices.push((technique.page().name, lines));
     }
     let missing = gpu.missing_features();
+    let out = &mut io::stdout();
     if as_json {
         let choices: serde_json::Map<_, _> =
             choices.into_iter().map(|(name, lines)| (name.into(), json!(lines))).collect();
         let all = json!({ "adapter": facts, "missing_features": missing, "choices": choices });
-        println!("{}", serde_json::to_string_pretty(&all)?);
+        writeln!(out, "{}", serde_json::to_string_pretty(&all)?)?;
         return Ok(());
     }
-    println!(
+    writeln!(
+        out,
         "adapter   {} ({})\ndriver    {}\nbackend   {}",
         facts.name, facts.device_type, facts.driver, facts.backend
-    );
-    println!("features  {}", facts.features.join(", "));
-    println!("missing   {}", if missing.is_empty() { "none".into() } else { missing.join(", ") });
+    )?;
+    writeln!(out, "features  {}", facts.features.join(", "))?;
+    writeln!(out, "missing   {}", if missing.is_empty() { "none".into() } else { missing.join(", ") })?;
     let limits = gpu.device.limits();
-    println!(
+    writeln!(
+        out,
         "limits    maps up to {0}x{0}, {1} layers, {2} bytes per pixel and pass",
         limits.max_texture_dimension_2d,
         limits.max_texture_array_layers,
         limits.max_color_attachment_bytes_per_sample
-    );
-    println!("\nchosen per technique:");
+    )?;
+    writeln!(out, "\nchosen per technique:")?;
     for (name, lines) in choices {
         for line in lines {
-            println!("  {name:<6} {line}");
+            writeln!(out, "  {name:<6} {line}")?;
         }
     }
     Ok(())

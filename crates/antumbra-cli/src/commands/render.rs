@@ -14,6 +14,7 @@ use antumbra_lab::{
 };
 use antumbra_truth::{CameraRays, Tracer};
 use anyhow::{Context, Result, bail};
+use std::io::{self, Write};
 
 pub(crate) fn run(arguments: &Render) -> Result<()> {
     let extension = arguments.output.extension().and_then(|e| e.to_str()).unwrap_or_default().to_lowercase();
@@ -22,6 +23,7 @@ pub(crate) fn run(arguments: &Render) -> Result<()> {
         ("exr", Show::Picture) => bail!("EXR holds raw visibility: add --show visibility, or write a .png"),
         _ => bail!("{}: the output must end in .png or .exr", arguments.output.display()),
     }
+    scene::check(&arguments.scene)?;
     let truth = arguments.technique == "truth";
     let techniques = match truth {
         true => Vec::new(),
@@ -62,6 +64,6 @@ pub(crate) fn run(arguments: &Render) -> Result<()> {
         (_, Show::Picture) => lighting.read_picture(&gpu)?.to_png()?,
     };
     files::write_atomically(&arguments.output, &bytes).context("nothing was written")?;
-    println!("{}", arguments.output.display());
+    writeln!(io::stdout(), "{}", arguments.output.display())?;
     Ok(())
 }

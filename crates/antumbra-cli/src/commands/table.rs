@@ -1,7 +1,9 @@
 //! Plain text tables.
 
+use std::io::{self, Write};
+
 /// Columns padded to their widest cell; numbers, which begin with a digit, to the right.
-pub(crate) fn print(header: &[&str], rows: &[Vec<String>]) {
+pub(crate) fn print(out: &mut impl Write, header: &[&str], rows: &[Vec<String>]) -> io::Result<()> {
     let width = |c: usize| {
         let cells = rows.iter().filter_map(|r| r.get(c)).map(|cell| cell.chars().count());
         cells.chain([header[c].chars().count()]).max().unwrap_or(0)
@@ -13,16 +15,17 @@ pub(crate) fn print(header: &[&str], rows: &[Vec<String>]) {
             .all(|cell| cell.starts_with(|ch: char| ch.is_ascii_digit() || ch == '-'))
     };
     let numeric: Vec<bool> = (0..header.len()).map(numeric).collect();
-    let line = |cells: Vec<&str>| {
+    let mut line = |cells: Vec<&str>| {
         let padded = cells.iter().enumerate().map(|(c, cell)| match numeric[c] {
             true => format!("{cell:>0$}", widths[c]),
             false => format!("{cell:<0$}", widths[c]),
         });
         let text = padded.collect::<Vec<_>>().join("  ");
-        println!("{}", text.trim_end());
+        writeln!(out, "{}", text.trim_end())
     };
-    line(header.to_vec());
+    line(header.to_vec())?;
     for row in rows {
-        line(row.iter().map(String::as_str).collect());
+        line(row.iter().map(String::as_str).collect())?;
     }
+    Ok(())
 }
