@@ -29,7 +29,7 @@ pub struct Tolerance {
 }
 
 impl Image {
-    /// Grey levels of values in [0,1].
+    /// Grey levels of values from 0 to 1.
     #[must_use]
     pub fn grey(width: u32, values: &[f32]) -> Self {
         let bytes: Vec<u8> = values.iter().map(|v| (v * 255.0).round() as u8).collect();

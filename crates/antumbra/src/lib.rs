@@ -1,4 +1,94 @@
-//! Antialiased, filtered shadow maps for any wgpu renderer.
+//! Antialiased, filtered shadow maps for any [wgpu](https://docs.rs/wgpu) renderer.
+//!
+//! You keep your device, your passes and your shaders. antumbra allocates a shadow map of the
+//! technique that you choose, filters it between your caster pass and your lighting pass, and gives
+//! you one WGSL function, `shadow_visibility`, and one bind group. It never submits, polls, blocks,
+//! logs or allocates on the GPU after a map is made.
+//!
+//! ```no_run
+//! use antumbra::{Bounds, Csm, Fit, Light, ShadowMap, Size};
+//! use glam::Vec3;
+//!
+//! const MY_SHADER: &str = "
+//!     @fragment fn fragment(@location(0) world: vec3f, @location(1) normal: vec3f) -> @location(0) vec4f {
+//!         let lit = shadow_visibility(world, normal, dpdx(world), dpdy(world));
+//!         return vec4f(vec3f(lit), 1.0);
+//!     }";
+//!
+//! fn example(device: &wgpu::Device, queue: &wgpu::Queue) -> Result<(), Box<dyn std::error::Error>> {
+//!     // Once: a map, and your shader with what it calls behind it, bound in group 2.
+//!     let mut shadows = ShadowMap::new(device, &Csm::default(), Size::square(1024))?;
+//!     let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+//!         label: None,
+//!         source: shadows.wgsl(2).after(MY_SHADER),
+//!     });
+//!     // … your pipeline from `module`, with `shadows.layout()` as the layout of group 2.
+//!     // Each frame: where the light looks from, what it sees.
+//!     let scene = Bounds { min: Vec3::splat(-10.0), max: Vec3::splat(10.0) };
+//!     let sun = Light::Directional { direction: Vec3::new(0.3, -1.0, 0.2) };
+//!     let view = sun.view(&Fit {
+//!         casters: scene,
+//!         receivers: scene.corners().collect(),
+//!         size: shadows.size(),
+//!         margin_texels: shadows.margin_texels(),
+//!     })?;
+//!     let mut encoder = device.create_command_encoder(&Default::default());
+//!     shadows.prepare(queue, &[view])?;
+//!     shadows.encode(&mut encoder, |view, pass| {
+//!         // … draw your casters' depth with `view.clip_from_world`.
+//!     });
+//!     // … in your pass: pass.set_bind_group(2, shadows.bind_group(), &[]);
+//!     Ok(())
+//! }
+//! ```
+//!
+//! The examples `hello`, `own_shader` (cascades, a larger shader, two techniques side by side) and
+//! `own_depth` (a depth pass that the renderer already has) are whole programs.
+//!
+//! # Techniques
+//!
+//! | name | type | texel of the map | lookups | at its best, and its price |
+//! | --- | --- | --- | --- | --- |
+//! | `hard` | [`Hard`] | 4 bytes | 1 | the yardstick: aliased edges, needs bias |
+//! | `pcf` | [`Pcf`] | 4 bytes | n² | the quality that others approximate; the cost grows with the kernel |
+//! | `vsm` | [`Vsm`] | 8 bytes, 1⅓ times with mips | 1 | any blur for the price of its passes; light bleeds where casters overlap |
+//! | `csm` | [`Csm`] | 4·⌈M/2⌉ bytes, 1⅓ times with mips | ⌈M/2⌉ | does not bleed between layers; bright near contact, rings |
+//! | `esm` | [`Esm`] | 4 bytes, 1⅓ times with mips | 1 | cheapest filtered map, no bias; too bright where casters lie close behind one another |
+//!
+//! A technique is a value whose public fields are its settings; [`technique::parse`] reads them from
+//! text (`esm.c=60,kernel=7`) and [`technique::all`] lists them. All of them run through the same
+//! four rooms, and nothing flows back:
+//!
+//! 1. **cast**: you draw the casters' depth, or already have it ([`ShadowMap::from_depth`]);
+//! 2. **convert**: each texel of depth becomes what the technique keeps, such as moments;
+//! 3. **pre-filter**: blur and mip chain ([`Filter`]); comparison techniques have none of 2 and 3;
+//! 4. **look up**: `shadow_visibility` reads the map and bounds the share of light.
+//!
+//! To add a technique of your own, implement [`Technique`]; nothing in the crate knows the list.
+//!
+//! # Units
+//!
+//! World positions and directions have your unit. Kernels, margins and [biases](technique::Bias)
+//! are in texels of the map, whatever its size and distance; settings in depth are shares of the
+//! view's range ([`View::depth_world`] long). Visibility is 0 (in shadow) to 1 (lit). Matrices take
+//! column vectors, clip space has z in [0,1], texture coordinates have y down.
+//!
+//! # Devices
+//!
+//! Vulkan, Metal, DX12 and WebGPU (also in the browser: there is no blocking call). GL and WebGL2
+//! are refused with [`Unsupported::Backend`]: a depth texture can only be compared there. No feature
+//! is required and WebGPU's default limits are enough; two features are used where the *device*
+//! was created with them, and [`ShadowMap::explain`] tells which path was taken:
+//!
+//! | without | instead |
+//! | --- | --- |
+//! | `FLOAT32_FILTERABLE` | 32-bit maps are interpolated in the shader, with the same result |
+//! | `DEPTH_CLIP_CONTROL` | casters in front of a view are moved onto its near plane by [`CASTER_WGSL`] in your vertex shader, instead of `unclipped_depth` in your pipeline |
+//! | eight colour attachments of the format | layers are converted in several passes |
+//!
+//! # Features
+//!
+//! `serde`: settings of techniques, [`Filter`] and [`technique::Bias`] can be saved and loaded.
 mod capabilities;
 mod cascade;
 mod error;

@@ -128,18 +128,11 @@ impl<'a> Parameter<'a> {
     pub fn set(&mut self, technique: &str, text: &str) -> Result<(), SettingError> {
         let refusal = self.refusal(technique, text);
         let taken = match &mut self.field {
-            Field::Number(v, r) => match text.parse::<f32>() {
-                Ok(x) if r.contains(&x) => Some(**v = x),
-                _ => None,
-            },
-            Field::Count(v, r) => match text.parse::<u32>() {
-                Ok(x) if r.contains(&x) => Some(**v = x),
-                _ => None,
-            },
-            Field::Odd(v, r) => match text.parse::<u32>() {
-                Ok(x) if r.contains(&x) && x % 2 == 1 => Some(**v = x),
-                _ => None,
-            },
+            Field::Number(v, r) => text.parse().ok().filter(|x| r.contains(x)).map(|x| **v = x),
+            Field::Count(v, r) => text.parse().ok().filter(|x| r.contains(x)).map(|x| **v = x),
+            Field::Odd(v, r) => {
+                text.parse().ok().filter(|x| r.contains(x) && x % 2 == 1).map(|x: u32| **v = x)
+            }
             Field::Choice(c) => c.names().iter().position(|n| *n == text).map(|i| c.choose(i)),
         };
         taken.ok_or(refusal)

@@ -1,6 +1,8 @@
 //! What cannot be made is refused with the thing's name, its value and what is allowed, before
 //! wgpu has to complain.
 
+#![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
+
 mod common;
 
 use antumbra::{

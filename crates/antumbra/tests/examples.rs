@@ -1,5 +1,8 @@
 //! The examples, as a reader would run them, with what their pictures must show.
 
+#![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
+#![allow(clippy::duplicate_mod, reason = "each example is a program of its own and has its `common`")]
+
 use antumbra_testing::{
     Gpu, Trials,
     image::{Image, Tolerance},

@@ -4,6 +4,8 @@
 //! the ground that reaches under the disc's rim; a bar of about one texel; a ramp that rises from
 //! the ground. White is lit.
 
+#![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
+
 mod common;
 
 use antumbra::{Options, Size, technique, technique::Bias};

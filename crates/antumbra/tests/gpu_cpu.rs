@@ -2,6 +2,8 @@
 //!
 //! Every comparison is repeated with a reference that is slightly wrong, and must then fail.
 
+#![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
+
 mod common;
 
 use antumbra::{

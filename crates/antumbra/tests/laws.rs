@@ -3,6 +3,8 @@
 //! A law is a function that says what is wrong; each is also given a technique that is broken on
 //! purpose, and must say so.
 
+#![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
+
 mod common;
 
 use antumbra::{
