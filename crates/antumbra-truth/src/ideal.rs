@@ -10,6 +10,12 @@
 //! ones keep d(x): the smaller of the two depths. Following the plane downhill too would let it dive
 //! under whatever it meets, and so darken a lit wall along the floor.
 //!
+//! **The receiver's own surface.** Uphill of x a concave surface, and every tessellated bump of one,
+//! stands above the tangent plane. It is what x would be compared with if d(y) were known, so it is
+//! no blocker: triangles of the receiver's own body (joined to it by shared corners) do not count
+//! where they rise above the plane by less than the sample's distance from x, a slope of 45°. Other
+//! bodies always count, however near: contact shadows stay.
+//!
 //! **Grazing light.** The farther the plane tilts from the light, the farther apart lie the points
 //! that neighbouring texels see. Beyond a depth change of [`STEEPEST`] per lateral unit (light at
 //! less than 0.9° to the plane), or where the plane of a spot's receiver would leave the range from
@@ -17,6 +23,7 @@
 //! limit holds. So every sample stays finite and on or above the plane, and no lit plane shadows
 //! itself.
 
+use crate::body::Bodies;
 use crate::kernel::scramble;
 use crate::shadow::{Progress, is_shadowable, to_light};
 use crate::{CameraRays, Hit, Kernel, MapPlane, Tracer, Visibility};
@@ -122,6 +129,7 @@ struct Ideal<'a> {
     light: &'a Light,
     kernel: &'a Kernel,
     plane: &'a MapPlane,
+    bodies: Bodies,
 }
 
 impl Ideal<'_> {
@@ -137,7 +145,10 @@ impl Ideal<'_> {
         let lit = range
             .filter(|&index| {
                 let point = footprint.point(self.kernel.sample(index, scramble));
-                self.tracer.is_lit(self.light, &hit, point)
+                let reach = point.distance(hit.position);
+                self.tracer.is_lit_but_for(self.light, &hit, point, |triangle, height| {
+                    height < reach && self.bodies.same(triangle, hit.triangle)
+                })
             })
             .count();
         Some(Tally { lit: lit as u32, of })
@@ -174,7 +185,7 @@ impl Tracer<'_> {
         plane: &MapPlane,
         progress: &(dyn Fn(f32) + Sync),
     ) -> Visibility {
-        let ideal = Ideal { tracer: self, rays, light, kernel, plane };
+        let ideal = Ideal { tracer: self, rays, light, kernel, plane, bodies: Bodies::new(self.geometry) };
         let width = rays.width() as usize;
         let rows = Progress::new(progress, 2 * rays.height() as usize);
         let mut few = vec![None; rays.pixel_count()];

@@ -29,7 +29,8 @@
 //! s_f(x) = Σ_q w(q) f(d, z(p − q)) (Annen et al. 2007, Eq. 4) with z from rays: the share of the
 //! kernel's offsets q whose light path reaches the receiver. The receiver's depth is d(x), or that of
 //! its *tangent plane* at p − q where that is nearer to the light: with d(x) alone half of every
-//! tilted lit plane would be in its own shadow.
+//! tilted lit plane would be in its own shadow. For the same reason the receiver's own surface does
+//! not count where it rises above that plane by less than the sample's distance from x.
 //!
 //! Beyond a depth change of 64 per lateral unit (light at less than 0.9° to the plane), or where the
 //! plane of a spot's receiver would leave the range from ⅔ to 2 times the receiver's depth, the
@@ -47,6 +48,7 @@
 //! truth, 4 s for 4 × 4 samples per pixel, 20 s for the light-space ideal of 5 to 9 taps. The example
 //! `time_truth` measures it.
 
+mod body;
 mod camera;
 mod coverage;
 mod error;

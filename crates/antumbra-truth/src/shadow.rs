@@ -80,9 +80,21 @@ pub(crate) fn is_shadowable(light: &Light, hit: &Hit) -> bool {
 }
 
 impl Tracer<'_> {
-    /// Whether the light reaches `point`, which lies on the tangent plane of `receiver` (usually it
-    /// is `receiver.position`).
-    pub(crate) fn is_lit(&self, light: &Light, receiver: &Hit, point: DVec3) -> bool {
+    /// Whether the light reaches the hit itself.
+    fn is_lit(&self, light: &Light, receiver: &Hit) -> bool {
+        self.is_lit_but_for(light, receiver, receiver.position, |_, _| false)
+    }
+
+    /// Whether the light reaches `point`, on or above the tangent plane of `receiver`. Triangles
+    /// that are `forgiven`, given their number and the height above that plane at which the ray
+    /// meets them, do not stop it.
+    pub(crate) fn is_lit_but_for(
+        &self,
+        light: &Light,
+        receiver: &Hit,
+        point: DVec3,
+        forgiven: impl Fn(u32, f64) -> bool,
+    ) -> bool {
         let (direction, distance) = to_light(light, point);
         let clearance = self.clearance(receiver.triangle);
         let rise = receiver.normal.dot(direction);
@@ -92,9 +104,12 @@ impl Tracer<'_> {
         // A blocker counts from the clearance above the plane up: that is where the span begins.
         let span = Span { near: clearance / rise, far: distance };
         let ray = Ray { origin: point, direction };
-        !self
-            .tree
-            .any(&ray, span, |triangle, met| triangle != receiver.triangle && !self.is_cut(triangle, met))
+        let start = receiver.normal.dot(point - receiver.position);
+        !self.tree.any(&ray, span, |triangle, met| {
+            triangle != receiver.triangle
+                && !self.is_cut(triangle, met)
+                && !forgiven(triangle, start + met.t * rise)
+        })
     }
 
     /// Height above the plane of `triangle` in which nothing shadows it, world units.
@@ -108,7 +123,7 @@ impl Tracer<'_> {
     /// shadowable.
     #[must_use]
     pub fn visibility(&self, light: &Light, hit: &Hit) -> Option<f32> {
-        is_shadowable(light, hit).then(|| if self.is_lit(light, hit, hit.position) { 1.0 } else { 0.0 })
+        is_shadowable(light, hit).then(|| if self.is_lit(light, hit) { 1.0 } else { 0.0 })
     }
 
     /// The hard truth: one primary ray per pixel centre and one shadow ray. Values are 0 or 1.

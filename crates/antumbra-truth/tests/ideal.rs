@@ -106,6 +106,40 @@ fn tilted_lit_planes_stay_lit() {
     }
 }
 
+/// A shallow bowl of small facets, each 1.5 texels wide, none of which can shadow another; `apart`
+/// pulls the facets off each other by a hair, so that they are bodies of their own.
+fn bowl_values(apart: f32) -> Vec<f32> {
+    let level = grid(DVec3::new(-1.0, 0.0, -1.0), DVec3::X * 2.0, DVec3::Z * 2.0, 64);
+    let bend = |p: Vec3| Vec3::new(p.x, 0.2 * (p.x * p.x + p.z * p.z), p.z);
+    let facets: Vec<[Vec3; 3]> = level
+        .iter()
+        .map(|corners| {
+            let [a, b, c] = corners.map(bend);
+            let middle = (a + b + c) / 3.0;
+            [a, b, c].map(|p| p + (middle - p) * apart)
+        })
+        .collect();
+    let geometry = geometry(&facets);
+    let tracer = Tracer::new(&geometry).unwrap();
+    let light = sun(DVec3::new(0.6, 1.0, 0.2));
+    let rays = picture(DVec3::new(0.3, 1.5, 0.5), DVec3::ZERO, [60, 45]);
+    let kernel = Kernel::new(vec![1.0; 5]).unwrap();
+    let ideal = tracer.light_space_ideal(&rays, &light, &kernel, &plane(&light, 0.02, 0.3), &|_| ());
+    let hits = tracer.primary(&rays);
+    let inner = hits.iter().zip(&ideal.values).filter(|(hit, _)| hit.position.abs().max_element() < 0.8);
+    inner.map(|(_, value)| *value).collect()
+}
+
+#[test]
+fn a_surface_does_not_shadow_itself_where_it_curves() {
+    let values = bowl_values(0.0);
+    assert!(values.len() > 500);
+    assert!(values.iter().all(|&v| v == 1.0));
+    // Without knowing that the facets hang together, most of them would be in their own shadow.
+    let apart = bowl_values(1e-3);
+    assert!(apart.iter().filter(|&&v| v < 1.0).count() > apart.len() / 2);
+}
+
 /// Visibility under a spot above the edge of a roof, along a line across the shadow's edge.
 #[test]
 fn spots_widen_with_distance() {
