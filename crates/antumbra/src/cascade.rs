@@ -40,7 +40,7 @@ impl Cascades {
 /// What a light's views are fitted to.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stage {
-    /// The camera: world to clip space, z in [0,1]. Reversed or infinite depth is fine.
+    /// The camera: world to clip space, z in `[0,1]`. Reversed or infinite depth is fine.
     pub camera: Mat4,
     /// Everything in the scene: casters and receivers.
     pub scene: Bounds,

@@ -71,7 +71,7 @@
 //! World positions and directions have your unit. Kernels, margins and [biases](technique::Bias)
 //! are in texels of the map, whatever its size and distance; settings in depth are shares of the
 //! view's range ([`View::depth_world`] long). Visibility is 0 (in shadow) to 1 (lit). Matrices take
-//! column vectors, clip space has z in [0,1], texture coordinates have y down.
+//! column vectors, clip space has z in `[0,1]`, texture coordinates have y down.
 //!
 //! # Devices
 //!

@@ -79,9 +79,9 @@ pub struct Fit {
 /// One map's worth of a light: matrices and units, all that shaders need.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct View {
-    /// World to clip space: x, y in [−1,1] (y up), z in [0,1] from near to far.
+    /// World to clip space: x, y in `[−1,1]` (y up), z in `[0,1]` from near to far.
     pub clip_from_world: Mat4,
-    /// Linear depth in [0,1] of a world point p is `dot(depth_plane, (p, 1))`.
+    /// Linear depth in `[0,1]` of a world point p is `dot(depth_plane, (p, 1))`.
     pub depth_plane: Vec4,
     /// Unit vector towards a directional light with w = 0, or position of a spot with w = 1.
     pub to_light: Vec4,
@@ -89,7 +89,7 @@ pub struct View {
     pub texel_world: f32,
     /// Near over far distance of a spot, 1 for parallel light: linearises projected depth.
     pub near_over_far: f32,
-    /// World length of the depth range [0,1].
+    /// World length of the depth range `[0,1]`.
     pub depth_world: f32,
 }
 
@@ -253,7 +253,7 @@ fn spot(position: DVec3, axes: Axes, outer_angle: f32, fit: &Fit) -> Result<View
 
 /// Corners of the part of a box that a camera sees, for [`Fit::receivers`].
 ///
-/// `clip_from_world` is the camera's matrix with z in [0,1]; reversed and infinite depth ranges
+/// `clip_from_world` is the camera's matrix with z in `[0,1]`; reversed and infinite depth ranges
 /// are fine. `distance` restricts the view to a range of clip-space w (distance along the line of
 /// sight of a perspective camera). Empty if nothing is visible.
 #[must_use]

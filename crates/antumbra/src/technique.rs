@@ -142,7 +142,7 @@ impl Bias {
 pub enum DepthSpace {
     /// What the rasteriser stores: projected depth. For comparing with [`Binding::Depth`].
     Raster,
-    /// Linear in [0,1] from near to far. For everything encoded from [`Map`]s.
+    /// Linear in `[0,1]` from near to far. For everything encoded from [`Map`]s.
     Linear,
 }
 
