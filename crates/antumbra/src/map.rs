@@ -10,8 +10,10 @@ use crate::{
 };
 use wgpu::{RenderPass, TextureFormat};
 
+mod check;
 mod memory;
 mod pipelines;
+mod receiver;
 mod textures;
 mod uniforms;
 
@@ -144,7 +146,7 @@ impl ShadowMap {
         depth: &wgpu::Texture,
         options: impl Into<Options>,
     ) -> Result<Self, Unsupported> {
-        textures::check_depth(depth)?;
+        check::depth(depth)?;
         let size = Size { width: depth.width(), height: depth.height() };
         let options = Options { size, views: depth.depth_or_array_layers(), ..options.into() };
         Self::build(device, technique, &options, Some(depth))
@@ -159,7 +161,7 @@ impl ShadowMap {
         technique::check(technique)?;
         let capabilities = Capabilities::of(device);
         let maps = technique.maps(&capabilities)?;
-        check_device(device, technique, &maps, options)?;
+        check::device(device, technique, &maps, options)?;
         let pipelines = options.pipelines.clone().unwrap_or_else(|| Pipelines::new(device));
         let compares = technique.bindings().contains(&Binding::Depth);
         let textures = Textures::new(device, &maps, options, depth, compares);
@@ -172,7 +174,7 @@ impl ShadowMap {
                 steps.iter().map(|step| draw(&pipelines, &textures, &uniforms, &maps, step, view)).collect()
             })
             .collect();
-        let (layout, bind_group) = receiver_group(device, technique, &capabilities, &textures, &uniforms);
+        let (layout, bind_group) = receiver::group(device, technique, &capabilities, &textures, &uniforms);
         Ok(Self {
             technique: technique.boxed(),
             capabilities,
@@ -355,44 +357,6 @@ impl ShadowMap {
     }
 }
 
-/// Backend, size and layers against the device.
-fn check_device(
-    device: &wgpu::Device,
-    technique: &dyn Technique,
-    maps: &[Map],
-    options: &Options,
-) -> Result<(), Unsupported> {
-    let backend = device.adapter_info().backend;
-    if backend == wgpu::Backend::Gl {
-        return Err(Unsupported::Backend { backend: backend.to_string() });
-    }
-    let limits = device.limits();
-    let Size { width, height } = options.size;
-    let max = limits.max_texture_dimension_2d;
-    if !(1..=max).contains(&width) || !(1..=max).contains(&height) {
-        return Err(Unsupported::Size { width, height, max });
-    }
-    let layers = maps.iter().map(|m| m.layers).max().unwrap_or(1).saturating_mul(options.views);
-    let max = limits.max_texture_array_layers;
-    if !(1..=max).contains(&layers) {
-        return Err(Unsupported::Layers { views: options.views, layers, max });
-    }
-    let room = limits.max_uniform_buffer_binding_size;
-    let most = room.saturating_sub(uniforms::bytes(technique, 0)) / uniforms::VIEW_BYTES;
-    if u64::from(options.views) > most {
-        return Err(Unsupported::Feature {
-            technique: technique.page().name.into(),
-            what: format!(
-                "a uniform binding of {} bytes for {} views ({room} are possible)",
-                uniforms::bytes(technique, options.views),
-                options.views
-            ),
-            instead: format!("take at most {most} views"),
-        });
-    }
-    Ok(())
-}
-
 /// Binds a step to the textures of one view.
 fn draw(
     pipelines: &Pipelines,
@@ -422,64 +386,4 @@ fn draw(
         bind_group,
         targets: step.targets.iter().map(place).collect(),
     }
-}
-
-/// Layout and bind group of the receiver.
-fn receiver_group(
-    device: &wgpu::Device,
-    technique: &dyn Technique,
-    capabilities: &Capabilities,
-    textures: &Textures,
-    uniforms: &Uniforms,
-) -> (wgpu::BindGroupLayout, wgpu::BindGroup) {
-    use wgpu::{BindingResource, BindingType, SamplerBindingType, TextureSampleType};
-    let texture = |sample_type| BindingType::Texture {
-        sample_type,
-        view_dimension: wgpu::TextureViewDimension::D2Array,
-        multisampled: false,
-    };
-    let filterable = textures.maps().iter().all(|m| capabilities.filters(m.texture.format()));
-    let bindings = technique.bindings();
-    let samplers: Vec<wgpu::Sampler> =
-        bindings.iter().map(|binding| textures::sampler(device, *binding, filterable)).collect();
-    let mut layout = vec![uniforms::layout_entry(0)];
-    let mut group = vec![wgpu::BindGroupEntry { binding: 0, resource: uniforms.receiver() }];
-    for (i, binding) in bindings.iter().enumerate() {
-        let (ty, resource) = match binding {
-            Binding::Depth => {
-                (texture(TextureSampleType::Depth), BindingResource::TextureView(textures.casters_array()))
-            }
-            Binding::Compare(_) => {
-                (BindingType::Sampler(SamplerBindingType::Comparison), BindingResource::Sampler(&samplers[i]))
-            }
-            Binding::Map(m) => {
-                let map = &textures.maps()[*m];
-                let filterable = capabilities.filters(map.texture.format());
-                (texture(TextureSampleType::Float { filterable }), BindingResource::TextureView(&map.array))
-            }
-            Binding::Sampler => {
-                let kind =
-                    if filterable { SamplerBindingType::Filtering } else { SamplerBindingType::NonFiltering };
-                (BindingType::Sampler(kind), BindingResource::Sampler(&samplers[i]))
-            }
-        };
-        let binding = i as u32 + 1;
-        layout.push(wgpu::BindGroupLayoutEntry {
-            binding,
-            visibility: wgpu::ShaderStages::FRAGMENT | wgpu::ShaderStages::COMPUTE,
-            ty,
-            count: None,
-        });
-        group.push(wgpu::BindGroupEntry { binding, resource });
-    }
-    let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some("shadow map"),
-        entries: &layout,
-    });
-    let bind_group = device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: Some("shadow map"),
-        layout: &layout,
-        entries: &group,
-    });
-    (layout, bind_group)
 }

@@ -193,21 +193,28 @@ fn filtering_keeps_the_mean(gpu: &Gpu, technique: &dyn Technique) -> Result<(), 
     Ok(())
 }
 
-/// The same depth in the second layer of a two-view map, behind a first view that looks elsewhere.
+/// The same depth in the second layer of a two-view map, behind a first view that looks elsewhere:
+/// beside the receivers, or only beyond them, so that they are in front of its near plane.
 fn views_do_not_matter(gpu: &Gpu, technique: &dyn Technique) -> Result<(), String> {
     let map = blocks(8, 4);
     let alone = shadow_map(gpu, technique, &depth_texture(gpu, SIZE, &map), SIZE.into());
     let depth =
         depth_layers(gpu, SIZE, 2, |layer, x, y| if layer == 1 { map(x, y) } else { 1.0 - map(x, y) });
-    let here = common::view(SIZE);
-    let elsewhere = View { clip_from_world: Mat4::from_translation(Vec3::new(3.0, 0.0, 0.0)), ..here };
-    let second = shadow_map_of(gpu, technique, &depth, SIZE.into(), &[elsewhere, here]);
     let receivers = receivers(9, 1024);
     let expected = visibility(gpu, &alone, &receivers);
-    let found = visibility(gpu, &second, &receivers);
-    all_of(receivers.iter().zip(expected.iter().zip(found).map(|(e, f)| e - f)), |_, difference| {
-        difference == 0.0
-    })
+    let here = common::view(SIZE);
+    for shift in [Vec3::new(3.0, 0.0, 0.0), Vec3::new(0.0, 0.0, -2.0)] {
+        let elsewhere = View {
+            clip_from_world: Mat4::from_translation(shift),
+            depth_plane: Vec3::Z.extend(shift.z),
+            ..here
+        };
+        let second = shadow_map_of(gpu, technique, &depth, SIZE.into(), &[elsewhere, here]);
+        let found = visibility(gpu, &second, &receivers);
+        let differences = expected.iter().zip(found).map(|(e, f)| e - f);
+        all_of(receivers.iter().zip(differences), |_, difference| difference == 0.0)?;
+    }
+    Ok(())
 }
 
 /// Interpolation in the shader gives what the sampler gives, and is told.

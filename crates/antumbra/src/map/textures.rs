@@ -6,7 +6,6 @@ use super::{
     uniforms::Uniforms,
 };
 use crate::{
-    error::Unsupported,
     light::Size,
     pass::{self, Place, Slot},
     technique::{Binding, Map, Pass},
@@ -201,24 +200,4 @@ pub(super) fn sampler(device: &wgpu::Device, binding: Binding, filterable: bool)
         compare,
         ..Default::default()
     })
-}
-
-/// Whether the passes can read a caller's depth.
-pub(super) fn check_depth(depth: &wgpu::Texture) -> Result<(), Unsupported> {
-    let wrong =
-        |what, found: String, needed: &str| Err(Unsupported::Depth { what, found, needed: needed.into() });
-    let format = depth.format();
-    if !format.has_depth_aspect() {
-        return wrong("format", format!("{format:?}"), "a depth format");
-    }
-    if !depth.usage().contains(TextureUsages::TEXTURE_BINDING) {
-        return wrong("usage", format!("{:?}", depth.usage()), "TEXTURE_BINDING");
-    }
-    if depth.dimension() != wgpu::TextureDimension::D2 {
-        return wrong("dimension", format!("{:?}", depth.dimension()), "2-D, one layer per view");
-    }
-    if depth.sample_count() != 1 {
-        return wrong("samples", depth.sample_count().to_string(), "1");
-    }
-    Ok(())
 }

@@ -1,0 +1,86 @@
+//! What must hold before anything is created, so that wgpu has nothing to complain about.
+
+use super::{Options, uniforms};
+use crate::{
+    error::Unsupported,
+    light::Size,
+    technique::{Map, Technique},
+};
+use wgpu::TextureUsages;
+
+/// GL only compares depth textures: nothing could be converted.
+fn backend(backend: wgpu::Backend) -> Result<(), Unsupported> {
+    match backend {
+        wgpu::Backend::Gl => Err(Unsupported::Backend { backend: backend.to_string() }),
+        _ => Ok(()),
+    }
+}
+
+/// Backend, size and layers against the device.
+pub(super) fn device(
+    device: &wgpu::Device,
+    technique: &dyn Technique,
+    maps: &[Map],
+    options: &Options,
+) -> Result<(), Unsupported> {
+    backend(device.adapter_info().backend)?;
+    let limits = device.limits();
+    let Size { width, height } = options.size;
+    let max = limits.max_texture_dimension_2d;
+    if !(1..=max).contains(&width) || !(1..=max).contains(&height) {
+        return Err(Unsupported::Size { width, height, max });
+    }
+    let layers = maps.iter().map(|m| m.layers).max().unwrap_or(1).saturating_mul(options.views);
+    let max = limits.max_texture_array_layers;
+    if !(1..=max).contains(&layers) {
+        return Err(Unsupported::Layers { views: options.views, layers, max });
+    }
+    let room = limits.max_uniform_buffer_binding_size;
+    let most = room.saturating_sub(uniforms::bytes(technique, 0)) / uniforms::VIEW_BYTES;
+    if u64::from(options.views) > most {
+        return Err(Unsupported::Feature {
+            technique: technique.page().name.into(),
+            what: format!(
+                "a uniform binding of {} bytes for {} views ({room} are possible)",
+                uniforms::bytes(technique, options.views),
+                options.views
+            ),
+            instead: format!("take at most {most} views"),
+        });
+    }
+    Ok(())
+}
+
+/// Whether the passes can read a caller's depth.
+pub(super) fn depth(depth: &wgpu::Texture) -> Result<(), Unsupported> {
+    let wrong =
+        |what, found: String, needed: &str| Err(Unsupported::Depth { what, found, needed: needed.into() });
+    let format = depth.format();
+    if !format.has_depth_aspect() {
+        return wrong("format", format!("{format:?}"), "a depth format");
+    }
+    if !depth.usage().contains(TextureUsages::TEXTURE_BINDING) {
+        return wrong("usage", format!("{:?}", depth.usage()), "TEXTURE_BINDING");
+    }
+    if depth.dimension() != wgpu::TextureDimension::D2 {
+        return wrong("dimension", format!("{:?}", depth.dimension()), "2-D, one layer per view");
+    }
+    if depth.sample_count() != 1 {
+        return wrong("samples", depth.sample_count().to_string(), "1");
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn gl_alone_is_refused() {
+        use wgpu::Backend;
+        assert!(matches!(backend(Backend::Gl), Err(Unsupported::Backend { .. })));
+        for good in [Backend::Vulkan, Backend::Metal, Backend::Dx12, Backend::BrowserWebGpu] {
+            assert_eq!(backend(good), Ok(()));
+        }
+    }
+}

@@ -1,0 +1,70 @@
+//! What receivers bind.
+
+use super::{
+    textures::{self, Textures},
+    uniforms::{self, Uniforms},
+};
+use crate::{
+    capabilities::Capabilities,
+    technique::{Binding, Technique},
+};
+
+/// Layout and bind group of the receiver.
+pub(super) fn group(
+    device: &wgpu::Device,
+    technique: &dyn Technique,
+    capabilities: &Capabilities,
+    textures: &Textures,
+    uniforms: &Uniforms,
+) -> (wgpu::BindGroupLayout, wgpu::BindGroup) {
+    use wgpu::{BindingResource, BindingType, SamplerBindingType, TextureSampleType};
+    let texture = |sample_type| BindingType::Texture {
+        sample_type,
+        view_dimension: wgpu::TextureViewDimension::D2Array,
+        multisampled: false,
+    };
+    let filterable = textures.maps().iter().all(|m| capabilities.filters(m.texture.format()));
+    let bindings = technique.bindings();
+    let samplers: Vec<wgpu::Sampler> =
+        bindings.iter().map(|binding| textures::sampler(device, *binding, filterable)).collect();
+    let mut layout = vec![uniforms::layout_entry(0)];
+    let mut group = vec![wgpu::BindGroupEntry { binding: 0, resource: uniforms.receiver() }];
+    for (i, binding) in bindings.iter().enumerate() {
+        let (ty, resource) = match binding {
+            Binding::Depth => {
+                (texture(TextureSampleType::Depth), BindingResource::TextureView(textures.casters_array()))
+            }
+            Binding::Compare(_) => {
+                (BindingType::Sampler(SamplerBindingType::Comparison), BindingResource::Sampler(&samplers[i]))
+            }
+            Binding::Map(m) => {
+                let map = &textures.maps()[*m];
+                let filterable = capabilities.filters(map.texture.format());
+                (texture(TextureSampleType::Float { filterable }), BindingResource::TextureView(&map.array))
+            }
+            Binding::Sampler => {
+                let kind =
+                    if filterable { SamplerBindingType::Filtering } else { SamplerBindingType::NonFiltering };
+                (BindingType::Sampler(kind), BindingResource::Sampler(&samplers[i]))
+            }
+        };
+        let binding = i as u32 + 1;
+        layout.push(wgpu::BindGroupLayoutEntry {
+            binding,
+            visibility: wgpu::ShaderStages::FRAGMENT | wgpu::ShaderStages::COMPUTE,
+            ty,
+            count: None,
+        });
+        group.push(wgpu::BindGroupEntry { binding, resource });
+    }
+    let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("shadow map"),
+        entries: &layout,
+    });
+    let bind_group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some("shadow map"),
+        layout: &layout,
+        entries: &group,
+    });
+    (layout, bind_group)
+}
