@@ -131,9 +131,9 @@ fn extent(points: impl Iterator<Item = DVec3>) -> (DVec3, DVec3) {
 impl Light {
     /// The light's only view: tightly around what both casts and is seen.
     ///
-    /// A directional light covers, across, the overlap of casters and receivers, and in depth the
-    /// receivers alone: casters nearer to the light are to be clamped or pancaked onto the near
-    /// plane. Texels are square; their world size comes in steps of 2^(1/16) and the map moves in
+    /// A directional light covers, across, the overlap of casters and receivers with a margin for
+    /// penumbrae, and in depth the receivers alone: casters nearer to the light are to be clamped or
+    /// pancaked onto the near plane. Texels are square; their world size comes in steps of 2^(1/16) and the map moves in
     /// whole texels, so that a moving camera does not make edges crawl. A spot's view is its cone;
     /// near and far are fitted to casters and receivers.
     ///

@@ -133,8 +133,9 @@ impl ShadowMap {
         Self::build(device, technique, &options.into(), None)
     }
 
-    /// Reads depth that the caller renders herself: a 2-D texture of any depth format without
-    /// stencil, one layer per view, with usage `TEXTURE_BINDING`, z in `[0,1]` from near to far as
+    /// Reads depth that the caller renders herself: a 2-D texture of any depth format (beside a
+    /// stencil, the depth alone is read), one layer per view, with usage `TEXTURE_BINDING`, z in
+    /// `[0,1]` from near to far as
     /// [`View::clip_from_world`] gives it. `options.size` and `options.views` are taken from the
     /// texture. Use [`encode_filter`](Self::encode_filter) instead of `encode`.
     ///

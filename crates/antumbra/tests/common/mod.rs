@@ -3,9 +3,13 @@
 
 #![allow(dead_code, unreachable_pub, reason = "each test program uses a part")]
 
-use antumbra::{NoProbe, Options, ShadowMap, Size, Technique, View};
+use antumbra::{NoProbe, Options, Pipelines, ShadowMap, Size, Technique, View};
 use antumbra_testing::Gpu;
 use glam::{Mat4, Vec2, Vec3, Vec4};
+use std::{
+    collections::HashMap,
+    sync::{Arc, Mutex, OnceLock, PoisonError},
+};
 
 /// A point to be asked about.
 #[derive(Debug, Clone, Copy)]
@@ -81,37 +85,7 @@ pub fn depth_layers(
         },
         source.size(),
     );
-    let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
-        label: Some("test depth"),
-        source: wgpu::ShaderSource::Wgsl(include_str!("depth.wgsl").into()),
-    });
-    let pipeline = gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some("test depth"),
-        layout: None,
-        vertex: wgpu::VertexState {
-            module: &module,
-            entry_point: Some("vertex"),
-            compilation_options: Default::default(),
-            buffers: &[],
-        },
-        primitive: Default::default(),
-        depth_stencil: Some(wgpu::DepthStencilState {
-            format: antumbra::DEPTH_FORMAT,
-            depth_write_enabled: Some(true),
-            depth_compare: Some(wgpu::CompareFunction::Always),
-            stencil: Default::default(),
-            bias: Default::default(),
-        }),
-        multisample: Default::default(),
-        fragment: Some(wgpu::FragmentState {
-            module: &module,
-            entry_point: Some("fragment"),
-            compilation_options: Default::default(),
-            targets: &[],
-        }),
-        multiview_mask: None,
-        cache: None,
-    });
+    let pipeline = kept(gpu).depth;
     let one = |texture: &wgpu::Texture, layer| {
         texture.create_view(&wgpu::TextureViewDescriptor {
             dimension: Some(wgpu::TextureViewDimension::D2),
@@ -153,6 +127,60 @@ pub fn depth_layers(
     target
 }
 
+/// What all tests of a program share, so that the driver compiles it once.
+#[derive(Debug, Clone)]
+struct Kept {
+    pipelines: Pipelines,
+    depth: wgpu::RenderPipeline,
+    compute: Arc<Mutex<HashMap<String, wgpu::ComputePipeline>>>,
+}
+
+/// Devices of other instances cannot be told apart by comparing them: only the shared one keeps.
+fn kept(gpu: &Gpu) -> Kept {
+    static SHARED: OnceLock<Kept> = OnceLock::new();
+    let make = || Kept {
+        pipelines: Pipelines::new(&gpu.device),
+        depth: depth_pipeline(gpu),
+        compute: Arc::default(),
+    };
+    let shared = antumbra_testing::gpu().is_some_and(|shared| std::ptr::eq(shared, gpu));
+    if shared { SHARED.get_or_init(make).clone() } else { make() }
+}
+
+fn depth_pipeline(gpu: &Gpu) -> wgpu::RenderPipeline {
+    let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some("test depth"),
+        source: wgpu::ShaderSource::Wgsl(include_str!("depth.wgsl").into()),
+    });
+    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some("test depth"),
+        layout: None,
+        vertex: wgpu::VertexState {
+            module: &module,
+            entry_point: Some("vertex"),
+            compilation_options: Default::default(),
+            buffers: &[],
+        },
+        primitive: Default::default(),
+        depth_stencil: Some(wgpu::DepthStencilState {
+            format: antumbra::DEPTH_FORMAT,
+            depth_write_enabled: Some(true),
+            depth_compare: Some(wgpu::CompareFunction::Always),
+            stencil: Default::default(),
+            bias: Default::default(),
+        }),
+        multisample: Default::default(),
+        fragment: Some(wgpu::FragmentState {
+            module: &module,
+            entry_point: Some("fragment"),
+            compilation_options: Default::default(),
+            targets: &[],
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}
+
 /// A filtered shadow map over that depth.
 pub fn shadow_map(
     gpu: &Gpu,
@@ -175,6 +203,7 @@ pub fn shadow_map_of(
     options: Options,
     views: &[View],
 ) -> ShadowMap {
+    let options = options.pipelines(&kept(gpu).pipelines);
     let mut shadows = ShadowMap::from_depth(&gpu.device, technique, depth, options).unwrap();
     shadows.prepare(&gpu.queue, views).unwrap();
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
@@ -230,10 +259,6 @@ pub fn compute(
     let source = buffer(input.len(), Usage::STORAGE | Usage::COPY_DST);
     let target = buffer(4 * outputs, Usage::STORAGE | Usage::COPY_SRC);
     gpu.queue.write_buffer(&source, 0, input);
-    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-        label: None,
-        source: shadows.wgsl(0).after(user),
-    });
     let entry = |binding, read_only| wgpu::BindGroupLayoutEntry {
         binding,
         visibility: wgpu::ShaderStages::COMPUTE,
@@ -253,14 +278,24 @@ pub fn compute(
         bind_group_layouts: &[Some(shadows.layout()), Some(&own)],
         immediate_size: 0,
     });
-    let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-        label: None,
-        layout: Some(&layout),
-        module: &module,
-        entry_point: Some("main"),
-        compilation_options: Default::default(),
-        cache: None,
-    });
+    let compile = || {
+        let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: None,
+            source: shadows.wgsl(0).after(user),
+        });
+        device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label: None,
+            layout: Some(&layout),
+            module: &module,
+            entry_point: Some("main"),
+            compilation_options: Default::default(),
+            cache: None,
+        })
+    };
+    let text = format!("{user}{}", shadows.wgsl(0).text());
+    let made = kept(gpu).compute;
+    let pipeline =
+        made.lock().unwrap_or_else(PoisonError::into_inner).entry(text).or_insert_with(compile).clone();
     let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
         label: None,
         layout: &own,
