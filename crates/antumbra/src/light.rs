@@ -132,10 +132,11 @@ impl Light {
     /// The light's only view: tightly around what both casts and is seen.
     ///
     /// A directional light covers, across, the overlap of casters and receivers with a margin for
-    /// penumbrae, and in depth the receivers alone: casters nearer to the light are to be clamped or
-    /// pancaked onto the near plane. Texels are square; their world size comes in steps of 2^(1/16) and the map moves in
-    /// whole texels, so that a moving camera does not make edges crawl. A spot's view is its cone;
-    /// near and far are fitted to casters and receivers.
+    /// penumbrae, and in depth the receivers and, if casters are there, a tenth more towards the
+    /// light: casters still nearer to it are to be clamped or pancaked onto the near plane. Texels
+    /// are square; their world size comes in steps of 2^(1/16) and the map moves in whole texels, so
+    /// that a moving camera does not make edges crawl. A spot's view is its cone; near and far are
+    /// fitted to casters and receivers.
     ///
     /// # Errors
     /// [`LightError`] for unusable directions, angles, bounds or margins.
@@ -178,6 +179,9 @@ fn overlap(receivers: [f64; 2], casters: [f64; 2]) -> ([f64; 2], [f64; 2]) {
     (both, [cut(0), cut(1)])
 }
 
+/// How far in front of the nearest receiver casters are kept apart, in depth ranges of the receivers.
+const APART: f64 = 0.1;
+
 fn directional(axes: Axes, fit: &Fit) -> Result<View, LightError> {
     let (caster_low, caster_high) = extent(fit.casters.corners().map(|p| axes.of(p.as_dvec3())));
     let (low, high) = extent(fit.receivers.iter().map(|p| axes.of(p.as_dvec3())));
@@ -198,9 +202,12 @@ fn directional(axes: Axes, fit: &Fit) -> Result<View, LightError> {
         ((centre - texels / 2.0).round() + texels / 2.0) * texel
     };
     let (cx, cy) = (snap(x, cut_x, across), snap(y, cut_y, down));
-    // In depth: the receivers, with a little room for rounding.
-    let room = 1e-3 * (high.z - low.z).max(span);
-    let (near, far) = (low.z - room, high.z + room);
+    // In depth: the receivers, with a little room for rounding. Casters farther out lose their depth
+    // on the near plane; kept at a distance there, they stay well apart from the nearest receivers
+    // for techniques that fall off gradually behind a caster.
+    let range = (high.z - low.z).max(span);
+    let near = caster_low.z.max(low.z - APART * range).min(low.z) - 1e-3 * range;
+    let far = high.z + 1e-3 * range;
     let (sx, sy, sz) = (2.0 / (texel * across), 2.0 / (texel * down), 1.0 / (far - near));
     let depth = Axes::row(axes.along, sz, -near * sz);
     Ok(View {

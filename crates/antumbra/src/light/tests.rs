@@ -67,6 +67,20 @@ fn texels_are_as_small_as_the_visible_part_allows() {
 }
 
 #[test]
+fn casters_beyond_the_near_plane_stay_apart_from_receivers() {
+    let light = sun(0.0, -1.0, 0.0);
+    let floor = Bounds { min: Vec3::new(-9.0, 0.0, -9.0), max: Vec3::new(9.0, 1.0, 9.0) };
+    let view = light.view(&fit(floor.corners().collect())).unwrap();
+    let depth = |y: f32| project(&view, Vec3::new(0.0, y, 0.0)).z;
+    assert!(depth(5.0) < 0.0, "the roof is clamped");
+    assert!((0.09..0.1).contains(&depth(1.0)), "{}", depth(1.0));
+    // Without such casters the range is the receivers' own.
+    let low = Fit { casters: floor, ..fit(floor.corners().collect()) };
+    let view = light.view(&low).unwrap();
+    assert!(project(&view, Vec3::Y).z < 2e-3);
+}
+
+#[test]
 fn a_spot_sees_its_cone_and_linear_depth_is_linear() {
     let spot = Light::Spot { position: Vec3::new(0.0, 10.0, 0.0), direction: -Vec3::Y, outer_angle: 0.5 };
     let view = spot.view(&fit(BOX.corners().collect())).unwrap();
