@@ -304,3 +304,6 @@ pub(crate) fn uniform(binding: u32) -> wgpu::BindGroupLayoutEntry {
 }
 
 pub(crate) type Target = TextureView;
+
+#[cfg(test)]
+mod tests;

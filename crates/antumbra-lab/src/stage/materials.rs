@@ -9,11 +9,11 @@ use bytemuck::{Pod, Zeroable};
 /// Rust side of `Material` in `stage/frame.wgsl`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
-struct MaterialUniform {
-    base_color: [f32; 4],
-    metallic: f32,
-    roughness: f32,
-    cutoff: f32,
+pub(super) struct MaterialUniform {
+    pub(super) base_color: [f32; 4],
+    pub(super) metallic: f32,
+    pub(super) roughness: f32,
+    pub(super) cutoff: f32,
     _padding: f32,
 }
 

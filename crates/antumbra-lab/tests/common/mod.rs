@@ -1,0 +1,106 @@
+//! A scene on the GPU and under rays, and what techniques make of it.
+
+#![allow(clippy::unwrap_used, reason = "helpers of tests fail like tests")]
+
+use antumbra::{Kernel, Options, ShadowMap, Size, Technique, View, Weights, technique::Bias};
+use antumbra_lab::{
+    compare,
+    gpu::Gpu,
+    lighting::{Lighting, Lookup},
+    metrics::{self, Score},
+    plane::Plane,
+    stage::Stage,
+};
+use antumbra_scene::{Camera, Geometry, Light, Scene};
+use antumbra_truth::{CameraRays, Coverage, CoverageTolerance, Tracer, Visibility};
+
+/// Kernel width of every technique and of the ideal, texels.
+pub(crate) const KERNEL: u32 = 5;
+
+/// One picture of one scene.
+pub(crate) struct Shot {
+    pub(crate) geometry: Geometry,
+    pub(crate) camera: Camera,
+    pub(crate) light: Light,
+    pub(crate) resolution: [u32; 2],
+    pub(crate) gpu: Gpu,
+    pub(crate) stage: Stage,
+    lighting: Lighting,
+}
+
+impl Shot {
+    /// The scene's own camera and light.
+    pub(crate) fn new(gpu: &antumbra_testing::Gpu, scene: &Scene, resolution: [u32; 2]) -> Self {
+        scene.validate().unwrap();
+        let gpu = Gpu::adopt(gpu.device.clone(), gpu.queue.clone(), gpu.info.clone());
+        let (geometry, camera, light) = (scene.flatten(), scene.main_camera(), scene.main_light());
+        let stage = Stage::new(&gpu, &geometry, &camera, &light, resolution).unwrap();
+        let lighting = Lighting::new(&gpu, &stage);
+        Self { geometry, camera, light, resolution, gpu, stage, lighting }
+    }
+
+    pub(crate) fn rays(&self) -> CameraRays {
+        CameraRays::new(&self.camera, self.resolution[0], self.resolution[1]).unwrap()
+    }
+
+    /// Whether raster and rays see the same triangles.
+    pub(crate) fn coverage(&self) -> Coverage {
+        let (tracer, rays) = (Tracer::new(&self.geometry).unwrap(), self.rays());
+        let numbers = self.stage.triangle_numbers(&self.gpu, &self.geometry).unwrap();
+        assert_eq!(numbers.len(), rays.pixel_count());
+        tracer.coverage(&rays, &tracer.primary(&rays), &numbers, CoverageTolerance::default())
+    }
+
+    /// Shadow maps that share one view.
+    pub(crate) fn maps(
+        &self,
+        techniques: &[&dyn Technique],
+        size: u32,
+        bias: Option<Bias>,
+    ) -> (Vec<ShadowMap>, View) {
+        let options = Options { bias, ..Options::from(Size::square(size)) };
+        let new = |t: &&dyn Technique| ShadowMap::new(&self.gpu.device, *t, options.clone()).unwrap();
+        let mut maps: Vec<ShadowMap> = techniques.iter().map(new).collect();
+        let all: Vec<&ShadowMap> = maps.iter().collect();
+        let view = compare::view(&self.stage, &self.geometry, &self.light, &all).unwrap();
+        for map in &mut maps {
+            map.prepare(&self.gpu.queue, &[view]).unwrap();
+        }
+        (maps, view)
+    }
+
+    /// What one of them answers for every pixel.
+    pub(crate) fn visibility(&self, shadows: &ShadowMap, view: &View) -> Plane {
+        self.stage.set_view(&self.gpu, view);
+        let lookup = Lookup::new(&self.gpu, &self.stage, shadows);
+        let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+        shadows.encode(&mut encoder, |_, pass| self.stage.draw_casters(pass));
+        self.stage.encode_surfaces(&mut encoder, None);
+        self.lighting.encode_lookup(&mut encoder, &self.stage, &lookup, Some(shadows), None);
+        self.gpu.finish(encoder).unwrap();
+        self.lighting.read_visibility(&self.gpu).unwrap()
+    }
+
+    /// The same for a single technique.
+    pub(crate) fn answer(&self, technique: &dyn Technique, size: u32, bias: Option<Bias>) -> Plane {
+        let (maps, view) = self.maps(&[technique], size, bias);
+        self.visibility(&maps[0], &view)
+    }
+
+    pub(crate) fn hard_truth(&self) -> Visibility {
+        Tracer::new(&self.geometry).unwrap().hard(&self.rays(), &self.light)
+    }
+
+    pub(crate) fn light_space_ideal(&self, view: &View) -> Visibility {
+        let taps = Kernel::new(Weights::Gaussian, KERNEL, 0.0).taps;
+        let kernel = antumbra_truth::Kernel::new(taps.iter().map(|w| f64::from(*w)).collect()).unwrap();
+        let tracer = Tracer::new(&self.geometry).unwrap();
+        tracer.light_space_ideal(&self.rays(), &self.light, &kernel, &compare::map_plane(view), &|_| ())
+    }
+}
+
+/// An answer against a truth.
+pub(crate) fn score(test: &Plane, truth: &Visibility) -> Score {
+    let plane = Plane::new(truth.width, truth.height, truth.values.clone()).unwrap();
+    metrics::score(test, &plane, &truth.shadowable).unwrap()
+}

@@ -1,0 +1,246 @@
+//! What the lab draws is what its rays see: triangles, cut-outs, derivatives, shadows.
+
+#![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
+
+mod common;
+
+use antumbra::{
+    Capabilities, Hard, Parameter, Technique, Unsupported,
+    technique::{Bias, Binding, Family, Map, Page, Uniform},
+};
+use antumbra_lab::{compare, gpu::Gpu, plane::Plane};
+use antumbra_scene::{AlphaMode, Camera, Image, Instance, Light, Material, Mesh, Scene, procedural};
+use antumbra_testing::Trials;
+use common::{KERNEL, Shot, score};
+use glam::{DVec3, Mat4, Vec2, Vec3, Vec4};
+
+fn main() {
+    let mut trials = Trials::default();
+    for entry in procedural::all() {
+        trials.add(format!("coverage_{}", entry.name), move |gpu| {
+            // Leaves and grass are about as small as pixels here: more centres lie on an edge.
+            let least = if entry.name == "fence" { 0.996 } else { 0.999 };
+            sees_what_rays_see(&Shot::new(gpu, &entry.scene(1), [320, 240]), least);
+        });
+    }
+    trials.add("coverage_of_cutouts", |gpu| {
+        sees_what_rays_see(&Shot::new(gpu, &checkered(true), [320, 240]), 0.999)
+    });
+    trials.add("coverage_notices_another_camera", another_camera);
+    trials.add("cutouts_cast_their_holes", holes);
+    trials.add("derivatives_are_those_of_the_plane", derivatives);
+    trials.add("spot_every_technique_is_near_its_ideal", spot);
+    trials.add("refusals_of_the_device_are_errors", refusals);
+    trials.run();
+}
+
+/// At least that share of pixels shows the same triangle, and every other has a good reason.
+fn sees_what_rays_see(shot: &Shot, least: f64) {
+    let coverage = shot.coverage();
+    assert_eq!(coverage.unexplained, 0, "{:?}: {coverage:?}", coverage.first_unexplained);
+    assert!(coverage.agreement() >= least, "{coverage:?}");
+    assert!(coverage.agree > 0);
+}
+
+/// Half a pixel aside is enough to be noticed.
+fn another_camera(gpu: &antumbra_testing::Gpu) {
+    let scene = procedural::by_name("contact").unwrap().scene(1);
+    let mut shot = Shot::new(gpu, &scene, [320, 240]);
+    shot.camera.target.x += 0.01;
+    let coverage = shot.coverage();
+    assert!(coverage.unexplained > 0 && coverage.agreement() < 0.999, "{coverage:?}");
+}
+
+/// A quad through four corners, with texture coordinates 0 to 1.
+fn quad(corners: [Vec3; 4], material: usize) -> Mesh {
+    let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize();
+    Mesh {
+        name: "quad".into(),
+        positions: corners.to_vec(),
+        normals: vec![normal; 4],
+        uvs: vec![Vec2::ZERO, Vec2::Y, Vec2::ONE, Vec2::X],
+        colors: vec![Vec4::ONE; 4],
+        indices: vec![0, 1, 2, 0, 2, 3],
+        material,
+    }
+}
+
+fn square(half: f32, height: f32, tilt: f32) -> [Vec3; 4] {
+    [(-1.0, -1.0), (-1.0, 1.0), (1.0, 1.0), (1.0, -1.0)]
+        .map(|(x, z)| Vec3::new(x * half, height + tilt * x * half, z * half))
+}
+
+fn placed(meshes: Vec<Mesh>, materials: Vec<Material>, images: Vec<Image>) -> Scene {
+    Scene {
+        name: "quads".into(),
+        instances: (0..meshes.len()).map(|mesh| Instance { mesh, world_from_mesh: Mat4::IDENTITY }).collect(),
+        meshes,
+        materials,
+        images,
+        cameras: vec![Camera {
+            position: Vec3::new(1.5, 4.0, 5.5),
+            target: Vec3::new(0.0, 0.3, 0.0),
+            up: Vec3::Y,
+            fov_y: 0.8,
+        }],
+        lights: vec![Light::Directional { direction: Vec3::new(0.3, -1.0, 0.35).normalize() }],
+        notes: Vec::new(),
+    }
+}
+
+/// A quad over a ground; a chequerboard of 4 by 4 fields is cut out of it, or not.
+fn checkered(masked: bool) -> Scene {
+    let field = |i: usize| if (i % 4 + i / 4).is_multiple_of(2) { 255 } else { 0 };
+    // Eight texels along each field, so that interpolation at the borders does not matter.
+    let rgba = (0..32 * 32).flat_map(|i| [255, 255, 255, field(i % 32 / 8 + i / 256 * 4)]).collect();
+    let image = Image { name: "fields".into(), width: 32, height: 32, rgba, repeat: [false; 2] };
+    let alpha = if masked { AlphaMode::Mask { cutoff: 0.5 } } else { AlphaMode::Opaque };
+    let fields = Material { name: "fields".into(), base_color_image: Some(0), alpha, ..Material::default() };
+    let meshes = vec![quad(square(3.0, 0.0, 0.0), 0), quad(square(1.0, 1.0, 0.2), 1)];
+    placed(meshes, vec![Material::default(), fields], vec![image])
+}
+
+fn holes(gpu: &antumbra_testing::Gpu) {
+    let masked = Shot::new(gpu, &checkered(true), [320, 240]);
+    let solid = Shot::new(gpu, &checkered(false), [320, 240]);
+    let truth = masked.hard_truth();
+    let good = score(&masked.answer(&Hard, 1024, None), &truth).pixel_match;
+    assert!(good >= 0.98, "pixel match {good}");
+    // The shadow of the uncut quad is not that shadow.
+    let other = score(&solid.answer(&Hard, 1024, None), &truth).pixel_match;
+    assert!(other < 0.98, "pixel match {other}");
+    let dark =
+        |shot: &Shot| shot.answer(&Hard, 1024, None).values.iter().filter(|v| **v < 0.5).count() as f64;
+    let share = dark(&masked) / dark(&solid);
+    assert!((0.4..0.6).contains(&share), "half of the fields are open, yet {share} of the shadow is left");
+}
+
+/// A technique that answers with a weighted sum of the gradients that it is given.
+#[derive(Debug, Clone)]
+struct Gradients([f32; 4]);
+
+impl Technique for Gradients {
+    fn page(&self) -> Page {
+        Page { name: "gradients", title: "Gradients", family: Family::Comparison, paper: "none" }
+    }
+    fn parameters(&mut self) -> Vec<Parameter<'_>> {
+        Vec::new()
+    }
+    fn maps(&self, _: &Capabilities) -> Result<Vec<Map>, Unsupported> {
+        Ok(Vec::new())
+    }
+    fn bindings(&self) -> Vec<Binding> {
+        vec![Binding::Depth]
+    }
+    fn wgsl(&self) -> &'static str {
+        "fn gradients_visibility(casters: texture_depth_2d_array, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f, a: f32, b: f32, c: f32, d: f32) -> f32 {
+            return dot(vec4f(ddx, ddy), vec4f(a, b, c, d));
+        }"
+    }
+    fn uniforms(&self) -> Vec<Uniform> {
+        ["a", "b", "c", "d"].into_iter().zip(self.0).collect()
+    }
+    fn reach_texels(&self) -> f32 {
+        0.5
+    }
+    fn boxed(&self) -> Box<dyn Technique> {
+        Box::new(self.clone())
+    }
+}
+
+/// Receivers are told how far the map's coordinates move to the next pixel, on the plane of the
+/// pixel's own surface: compared with rays in f64, on a plane that is tilted to camera and light.
+fn derivatives(gpu: &antumbra_testing::Gpu) {
+    let corners = square(2.0, 0.5, 0.6);
+    let shot =
+        Shot::new(gpu, &placed(vec![quad(corners, 0)], vec![Material::default()], Vec::new()), [160, 120]);
+    let [a, b, c, _] = corners.map(Vec3::as_dvec3);
+    let normal = (b - a).cross(c - a);
+    let rays = shot.rays();
+    let on_plane = |x: f64, y: f64| {
+        let ray = rays.ray(x, y);
+        ray.origin + ray.direction * (normal.dot(a - ray.origin) / normal.dot(ray.direction))
+    };
+    let worst = |picked: usize, expected: usize| {
+        let weights = std::array::from_fn(|i| if i == picked { 1.0 } else { 0.0 });
+        let (maps, view) = shot.maps(&[&Gradients(weights)], 256, None);
+        let matrix = view.clip_from_world.as_dmat4();
+        let uv = |p: DVec3| matrix.transform_point3(p) * DVec3::new(0.5, -0.5, 1.0);
+        let told = shot.visibility(&maps[0], &view);
+        // Gradients of coordinates are far below 1, the answer outside of the map.
+        let seen = told.values.iter().enumerate().filter(|(_, v)| **v != 1.0);
+        let (mut count, mut worst) = (0, 0.0_f64);
+        for (pixel, value) in seen {
+            let (x, y) = rays.pixel(pixel);
+            let (x, y) = (f64::from(x) + 0.5, f64::from(y) + 0.5);
+            let step = |dx: f64, dy: f64| uv(on_plane(x + dx, y + dy)) - uv(on_plane(x, y));
+            let [right, down] = [step(1.0, 0.0), step(0.0, 1.0)];
+            let exact = [right.x, right.y, down.x, down.y];
+            let size = right.truncate().length().max(down.truncate().length());
+            worst = worst.max((f64::from(*value) - exact[expected]).abs() / size);
+            count += 1;
+        }
+        assert!(count > 1000, "only {count} pixels see the plane");
+        worst
+    };
+    for i in 0..4 {
+        let error = worst(i, i);
+        assert!(error < 1e-3, "gradient {i} is off by {error} of the footprint");
+        let mixed = worst(i, (i + 1) % 4);
+        assert!(mixed > 1e-3, "gradient {i} passes for its neighbour");
+    }
+}
+
+/// Largest RMSE against the light-space ideal, measured plus a quarter.
+const SPOT_BOUNDS: [(&str, f64); 5] =
+    [("hard", 0.086), ("pcf", 0.024), ("vsm", 0.109), ("csm", 0.130), ("esm", 0.119)];
+
+/// Bounds on the distance from truth, which pictures that are wrong must exceed.
+fn spot(gpu: &antumbra_testing::Gpu) {
+    let shot = Shot::new(gpu, &procedural::by_name("spot").unwrap().scene(1), [320, 240]);
+    let techniques = compare::techniques(&["all".into()], KERNEL).unwrap();
+    let all: Vec<&dyn Technique> = techniques.iter().map(|t| t.as_ref()).collect();
+    let (maps, view) = shot.maps(&all, 1024, None);
+    let (hard, ideal) = (shot.hard_truth(), shot.light_space_ideal(&view));
+    for (map, (name, bound)) in maps.iter().zip(SPOT_BOUNDS) {
+        let answer = shot.visibility(map, &view);
+        assert_eq!(map.technique().page().name, name);
+        let rmse = score(&answer, &ideal).rmse;
+        assert!(rmse <= bound, "{name}: RMSE {rmse} is above {bound}");
+        let shifted = |x: u32, y| answer.get((x + 4).min(answer.width - 1), y).unwrap();
+        let shifted = Plane::from_fn(answer.width, answer.height, shifted);
+        let rmse = score(&shifted, &ideal).rmse;
+        assert!(rmse > bound, "{name}: RMSE {rmse} four pixels aside");
+        let pixel_match = score(&answer, &hard).pixel_match;
+        assert!(name != "hard" || pixel_match >= 0.97, "pixel match {pixel_match}");
+        // Too little bias, and lit surfaces shadow themselves.
+        let early = Bias { constant_texels: -64.0, ..Bias::NONE };
+        let rmse = score(&shot.answer(map.technique(), 1024, Some(early)), &ideal).rmse;
+        assert!(rmse > bound, "{name}: RMSE {rmse} with acne");
+    }
+}
+
+/// What wgpu reports outside of error scopes ends up in a result and not in a panic.
+fn refusals(_: &antumbra_testing::Gpu) {
+    // Of its own, since the shared one is inside an error scope.
+    let other = antumbra_testing::gpu_without(wgpu::Features::empty()).unwrap();
+    let gpu = Gpu::adopt(other.device, other.queue, other.info);
+    gpu.check().unwrap();
+    let most = gpu.device.limits().max_buffer_size;
+    let too_large = |size| {
+        gpu.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("too large"),
+            size,
+            usage: wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        })
+    };
+    let buffer = too_large(most + 4);
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    encoder.clear_buffer(&buffer, 0, None);
+    let message = gpu.finish(encoder).unwrap_err().to_string();
+    assert!(message.contains("too large") && message.contains(&most.to_string()), "{message}");
+    // Said once, and then the device goes on.
+    gpu.check().unwrap();
+    gpu.finish(gpu.device.create_command_encoder(&Default::default())).unwrap();
+}
