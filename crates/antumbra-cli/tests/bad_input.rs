@@ -1,6 +1,8 @@
 //! What is wrong is refused with exit code 2 and a message that names the thing, its value and what
 //! is allowed; nothing is written. What is merely odd works.
 
+#![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
+
 mod common;
 
 use antumbra_testing::Trials;

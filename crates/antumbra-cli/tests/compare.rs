@@ -1,5 +1,7 @@
 //! The program from end to end: a comparison with its report, pictures, lists.
 
+#![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
+
 mod common;
 
 use antumbra_lab::results::{Results, SCHEMA, TechniqueResult};
