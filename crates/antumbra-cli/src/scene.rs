@@ -4,7 +4,7 @@ use crate::arguments::SceneArguments;
 use antumbra_scene::{Camera, Geometry, Light, Scene, import, procedural};
 use anyhow::{Context, Result, bail};
 use glam::Vec3;
-use std::path::Path;
+use std::{io::Write, path::Path};
 
 /// All that is needed to render.
 #[derive(Debug)]
@@ -58,7 +58,12 @@ fn open(name: &str, seed: u64) -> Result<Scene> {
     if path.is_dir() {
         bail!("{name} is a folder; give a .glb, .gltf or .obj file in it");
     }
-    Ok(import::load(path)?)
+    let scene = import::load(path)?;
+    for note in &scene.notes {
+        // A standard error that nobody reads is no reason to stop.
+        let _ = writeln!(std::io::stderr(), "note: {note}");
+    }
+    Ok(scene)
 }
 
 fn resolution(text: &str) -> Result<[u32; 2]> {

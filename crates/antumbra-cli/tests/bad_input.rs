@@ -255,6 +255,35 @@ fn odd_but_good(trials: &mut Trials) {
             assert!(technique["scores"]["hard"]["pixel_match"].as_f64().unwrap() > 0.95, "{technique}");
         }
     });
+    trials.add("what_the_importer_changed_is_said", |_| {
+        let folder = Folder::new();
+        let blend = |d: &mut serde_json::Value| {
+            d["materials"] = json!([{"name": "pane", "alphaMode": "BLEND"}]);
+            d["meshes"][0]["primitives"][0]["material"] = json!(0);
+        };
+        folder.write("blend.glb", &glb(&positions(), &INDICES, blend));
+        let answer = folder.run(&["render", "blend.glb", "--resolution", "32x24", "--size", "32"]);
+        assert_eq!(answer.code, Some(0), "{}", answer.err);
+        assert!(answer.err.starts_with("note: ") && answer.err.contains("pane"), "{}", answer.err);
+    });
+    trials.add("scenes_of_extreme_size", |_| {
+        for scale in [1e-30_f32, 1e-12, 1e12, 1e18, 1e30] {
+            let folder = Folder::new();
+            let scaled: Vec<f32> = positions().iter().map(|v| v * scale).collect();
+            folder.write("scaled.glb", &glb(&scaled, &INDICES, |_| ()));
+            let small = ["scaled.glb", "--resolution", "32x24", "--size", "32", "--rounds", "1"];
+            let answer = folder.run(&[&["compare"], &small[..], &["--grid", "1"]].concat());
+            assert_eq!(answer.code, Some(0), "{scale}: {}", answer.err);
+            // Nothing degrades in silence.
+            let extreme = !(1e-20..1e20).contains(&scale);
+            assert_eq!(
+                answer.err.starts_with("warning: raster and rays"),
+                extreme,
+                "{scale}: {}",
+                answer.err
+            );
+        }
+    });
     #[cfg(unix)]
     trials.add("names_that_are_no_unicode", |_| {
         use std::os::unix::ffi::OsStrExt;

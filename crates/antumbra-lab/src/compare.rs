@@ -56,7 +56,7 @@ pub struct Request {
 pub trait Progress: Sync {
     /// A step begins.
     fn step(&self, name: &str);
-    /// Share of the step that is done, in [0,1].
+    /// Share of the step that is done, 0 to 1.
     fn share(&self, share: f32);
 }
 
@@ -300,8 +300,9 @@ fn time(
     for time in &mut times {
         time.frame_ratio_to_hard =
             Some(time.frame.median_ms / hard.frame.median_ms).filter(|r| r.is_finite());
-        let ratio = own(time).zip(own(&hard)).map(|(t, h)| t.max(0.0) / h);
-        time.lookup_ratio_to_hard = ratio.filter(|r| r.is_finite() && *r >= 0.0);
+        // A lookup that takes no longer than none at all is below what the clock can tell.
+        let pair = own(time).zip(own(&hard)).filter(|(_, h)| *h > 0.0);
+        time.lookup_ratio_to_hard = pair.map(|(t, h)| t.max(0.0) / h).filter(|r| r.is_finite());
     }
     Ok(times)
 }

@@ -116,7 +116,7 @@ impl Stage {
             .collect();
         check_buffer(gpu, "vertices", attributes.len(), size_of::<Attributes>())?;
         check_buffer(gpu, "corners of triangles", geometry.indices.len(), size_of::<u32>())?;
-        let (mut frame, camera_matrix) = Frame::new(camera, resolution, bounds.radius().max(1e-3) * 1e-4);
+        let (mut frame, camera_matrix) = Frame::new(camera, resolution, bounds.radius().max(1e-30) * 1e-4);
         (frame.to_light, frame.cone[0]) = match *light {
             antumbra_scene::Light::Directional { direction } => ((-direction).extend(0.0).to_array(), -2.0),
             antumbra_scene::Light::Spot { position, outer_angle, .. } => {

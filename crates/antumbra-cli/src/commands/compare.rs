@@ -42,6 +42,7 @@ pub(crate) fn run(arguments: &Compare) -> Result<()> {
         compare::compare(&gpu, &request, &bar)?
     };
     let folder = report::write(&comparison.results, &comparison.images, &arguments.output)?;
+    warn(&comparison.results);
     let out = &mut io::stdout();
     if arguments.json {
         writeln!(out, "{}", comparison.results.to_json()?)?;
@@ -50,6 +51,19 @@ pub(crate) fn run(arguments: &Compare) -> Result<()> {
         writeln!(out, "\nreport: {}", folder.join("index.html").display())?;
     }
     Ok(())
+}
+
+/// Scores mean little where raster and rays see different things.
+fn warn(results: &Results) {
+    let pixels = u64::from(results.resolution[0]) * u64::from(results.resolution[1]);
+    let unexplained = results.truth.coverage_explained.get("unexplained").copied().unwrap_or(0);
+    if 1000 * unexplained > pixels {
+        let _ = writeln!(
+            io::stderr(),
+            "warning: raster and rays see different triangles in {unexplained} of {pixels} pixels, for no good \
+             reason; do not trust these scores (is the scene of extreme size?)"
+        );
+    }
 }
 
 /// As typed, but for what is no Unicode.

@@ -13,7 +13,8 @@ pub(super) const FORMATS: [TextureFormat; 4] = [
     TextureFormat::Rgba8UnormSrgb,
 ];
 
-/// One texture per [`FORMATS`] entry, depth, and the bind group of full-screen passes.
+/// A texture for each of position, facet, shading normal and base colour, one for depth, and the
+/// bind group of full-screen passes.
 #[derive(Debug)]
 pub struct Surfaces {
     resolution: [u32; 2],
