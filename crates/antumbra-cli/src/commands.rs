@@ -1,6 +1,9 @@
 //! What each subcommand does.
 
-use crate::arguments::{Arguments, Command};
+use crate::{
+    arguments::{Arguments, Command},
+    names,
+};
 use antumbra::SettingError;
 use anyhow::Result;
 use clap::CommandFactory;
@@ -36,18 +39,5 @@ pub(crate) fn hint(error: &anyhow::Error) -> Option<String> {
         | SettingError::UnknownParameter { name, known, .. } => Some((name, known)),
         _ => None,
     })?;
-    nearest(name, known.iter().map(String::as_str)).map(|nearest| format!("did you mean {nearest}?"))
-}
-
-/// The known name that resembles a wrong one most, if any does.
-pub(crate) fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
-    known
-        .map(|k| {
-            // The second also knows swapped letters in short names.
-            let likeness = strsim::jaro_winkler(name, k).max(strsim::normalized_damerau_levenshtein(name, k));
-            (likeness, k)
-        })
-        .filter(|(likeness, _)| *likeness > 0.6)
-        .max_by(|a, b| a.0.total_cmp(&b.0))
-        .map(|(_, k)| k)
+    names::nearest(name, known.iter().map(String::as_str)).map(|nearest| format!("did you mean {nearest}?"))
 }

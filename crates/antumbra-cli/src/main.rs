@@ -2,6 +2,7 @@
 
 mod arguments;
 mod commands;
+mod names;
 mod output;
 mod progress;
 mod scene;

@@ -51,7 +51,7 @@ fn open(name: &str, seed: u64) -> Result<Scene> {
     let path = Path::new(name);
     if path.extension().is_none() && !path.exists() {
         let known: Vec<&str> = procedural::all().iter().map(|p| p.name).collect();
-        let nearest = crate::commands::nearest(name, known.iter().copied());
+        let nearest = crate::names::nearest(name, known.iter().copied());
         let hint = nearest.map(|n| format!("; did you mean {n}?")).unwrap_or_default();
         bail!("no built-in scene and no file is called '{name}'; built-in: {}{hint}", known.join(", "));
     }

@@ -173,7 +173,7 @@ struct Contestant {
 pub fn compare(gpu: &Gpu, request: &Request, progress: &dyn Progress) -> Result<Comparison> {
     let start = Instant::now();
     progress.step("upload");
-    let stage = Stage::new(gpu, &request.geometry, &request.camera, &request.light, request.resolution)?;
+    let mut stage = Stage::new(gpu, &request.geometry, &request.camera, &request.light, request.resolution)?;
     let lighting = Lighting::new(gpu, &stage);
     let pipelines = Pipelines::new(&gpu.device);
     let mut contestants = Vec::new();
@@ -187,7 +187,7 @@ pub fn compare(gpu: &Gpu, request: &Request, progress: &dyn Progress) -> Result<
     }
     let maps: Vec<&ShadowMap> = contestants.iter().map(|c| &c.shadows).collect();
     let view = view(&stage, &request.geometry, &request.light, &maps)?;
-    stage.set_view(gpu, &view);
+    stage.set_views(gpu, &[view]);
     for contestant in &mut contestants {
         contestant.shadows.prepare(&gpu.queue, &[view])?;
     }
@@ -242,7 +242,7 @@ fn render(
 ) -> Result<Rendered> {
     let shadows = &contestant.shadows;
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    shadows.encode(&mut encoder, |_, pass| stage.draw_casters(pass));
+    shadows.encode(&mut encoder, |view, pass| stage.draw_casters(view, pass));
     stage.encode_surfaces(&mut encoder, None);
     lighting.encode_lookup(&mut encoder, stage, &contestant.lookup, Some(shadows), None);
     lighting.encode_picture(&mut encoder, stage);

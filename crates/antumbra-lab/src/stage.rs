@@ -85,6 +85,9 @@ pub struct Stage {
     frame_group: wgpu::BindGroup,
     light_buffer: wgpu::Buffer,
     light_group: wgpu::BindGroup,
+    /// Bytes from one view's matrix to the next.
+    light_stride: u64,
+    views: Vec<antumbra::View>,
     surfaces: Surfaces,
 }
 
@@ -130,12 +133,18 @@ impl Stage {
         let pipelines = Pipelines::new(gpu, &materials.layout);
         use wgpu::BufferUsages as Usage;
         let frame_buffer = gpu.buffer("frame", bytemuck::bytes_of(&frame), Usage::UNIFORM);
-        let light_buffer = gpu.buffer("light", &[0; 64], Usage::UNIFORM);
-        let uniform = |buffer: &wgpu::Buffer| {
+        let light_stride = 64u64.next_multiple_of(u64::from(limits.min_uniform_buffer_offset_alignment));
+        let light_bytes = vec![0; Self::MOST_VIEWS * light_stride as usize];
+        let light_buffer = gpu.buffer("light", &light_bytes, Usage::UNIFORM);
+        let uniform = |buffer: &wgpu::Buffer, bytes: usize| {
+            let size = std::num::NonZeroU64::new(bytes as u64);
             gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
                 label: Some("uniform"),
                 layout: &pipelines.uniform,
-                entries: &[wgpu::BindGroupEntry { binding: 0, resource: buffer.as_entire_binding() }],
+                entries: &[wgpu::BindGroupEntry {
+                    binding: 0,
+                    resource: wgpu::BindingResource::Buffer(wgpu::BufferBinding { buffer, offset: 0, size }),
+                }],
             })
         };
         let masked = |m: usize| matches!(geometry.materials[m].alpha, AlphaMode::Mask { .. });
@@ -144,13 +153,15 @@ impl Stage {
             attributes: gpu.buffer("attributes", bytemuck::cast_slice(&attributes), Usage::VERTEX),
             indices: gpu.buffer("indices", bytemuck::cast_slice(&geometry.indices), Usage::INDEX),
             groups: geometry.groups.iter().map(|(m, r)| (*m, 3 * r.start..3 * r.end, masked(*m))).collect(),
-            frame_group: uniform(&frame_buffer),
-            light_group: uniform(&light_buffer),
+            frame_group: uniform(&frame_buffer, size_of::<Frame>()),
+            light_group: uniform(&light_buffer, size_of::<Mat4>()),
             surfaces: Surfaces::new(gpu, resolution, &frame_buffer),
             materials,
             pipelines,
             camera_matrix,
             light_buffer,
+            light_stride,
+            views: Vec::new(),
         };
         gpu.check()?;
         Ok(stage)
@@ -168,21 +179,34 @@ impl Stage {
         &self.surfaces
     }
 
-    /// Tells the casters' shader where the light looks from; before encoding.
-    pub fn set_view(&self, gpu: &Gpu, view: &antumbra::View) {
-        gpu.queue.write_buffer(
-            &self.light_buffer,
-            0,
-            bytemuck::bytes_of(&view.clip_from_world.to_cols_array()),
-        );
+    /// Most views that casters are drawn for at a time.
+    pub const MOST_VIEWS: usize = 8;
+
+    /// Takes the views that [`draw_casters`](Self::draw_casters) will be asked for, at most
+    /// [`MOST_VIEWS`](Self::MOST_VIEWS); further ones are left out.
+    pub fn set_views(&mut self, gpu: &Gpu, views: &[antumbra::View]) {
+        self.views = views.iter().take(Self::MOST_VIEWS).copied().collect();
+        for (i, view) in self.views.iter().enumerate() {
+            let matrix = view.clip_from_world.to_cols_array();
+            gpu.queue.write_buffer(
+                &self.light_buffer,
+                i as u64 * self.light_stride,
+                bytemuck::bytes_of(&matrix),
+            );
+        }
     }
 
-    /// Draws every caster into a shadow map's pass. Opaque ones first, in one draw.
-    pub fn draw_casters(&self, pass: &mut RenderPass<'_>) {
+    /// Draws every caster into a shadow map's pass, for one of the views of
+    /// [`set_views`](Self::set_views). Opaque ones first, in one draw.
+    pub fn draw_casters(&self, view: &antumbra::View, pass: &mut RenderPass<'_>) {
+        let view = self.views.iter().position(|v| v == view);
+        debug_assert!(view.is_some(), "casters drawn for a view that set_views was not told of");
+        let Some(view) = view else { return };
+        let offset = (view as u64 * self.light_stride) as u32;
         pass.set_vertex_buffer(0, self.positions.slice(..));
         pass.set_vertex_buffer(1, self.attributes.slice(..));
         pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
-        pass.set_bind_group(0, &self.light_group, &[]);
+        pass.set_bind_group(0, &self.light_group, &[offset]);
         let opaque = self.groups.iter().filter(|g| !g.2).map(|g| g.1.end).max().unwrap_or(0);
         if opaque > 0 {
             pass.set_pipeline(&self.pipelines.caster);
@@ -205,7 +229,7 @@ impl Stage {
         pass.set_vertex_buffer(0, self.positions.slice(..));
         pass.set_vertex_buffer(1, self.attributes.slice(..));
         pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
-        pass.set_bind_group(0, &self.frame_group, &[]);
+        pass.set_bind_group(0, &self.frame_group, &[0]);
         for (material, range, masked) in &self.groups {
             pass.set_pipeline(if *masked { &self.pipelines.masked_surface } else { &self.pipelines.surface });
             pass.set_bind_group(1, &self.materials.groups[*material], &[]);
@@ -247,7 +271,7 @@ impl Stage {
             );
             pass.set_vertex_buffer(0, positions.slice(..));
             pass.set_vertex_buffer(1, attributes.slice(..));
-            pass.set_bind_group(0, &self.frame_group, &[]);
+            pass.set_bind_group(0, &self.frame_group, &[0]);
             for (material, range, masked) in &self.groups {
                 pass.set_pipeline(if *masked {
                     &self.pipelines.masked_number
@@ -291,12 +315,23 @@ pub(crate) fn loaded(binding: u32) -> wgpu::BindGroupLayoutEntry {
 
 /// Layout entry of a uniform buffer.
 pub(crate) fn uniform(binding: u32) -> wgpu::BindGroupLayoutEntry {
+    uniform_entry(binding, Offset::Fixed)
+}
+
+/// Whether a bind group's offset into its buffer is given when it is set.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Offset {
+    Fixed,
+    Dynamic,
+}
+
+fn uniform_entry(binding: u32, offset: Offset) -> wgpu::BindGroupLayoutEntry {
     wgpu::BindGroupLayoutEntry {
         binding,
         visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
         ty: wgpu::BindingType::Buffer {
             ty: wgpu::BufferBindingType::Uniform,
-            has_dynamic_offset: false,
+            has_dynamic_offset: offset == Offset::Dynamic,
             min_binding_size: None,
         },
         count: None,

@@ -101,8 +101,8 @@ fn checkered(masked: bool) -> Scene {
 }
 
 fn holes(gpu: &antumbra_testing::Gpu) {
-    let masked = Shot::new(gpu, &checkered(true), [320, 240]);
-    let solid = Shot::new(gpu, &checkered(false), [320, 240]);
+    let mut masked = Shot::new(gpu, &checkered(true), [320, 240]);
+    let mut solid = Shot::new(gpu, &checkered(false), [320, 240]);
     let truth = masked.hard_truth();
     let good = score(&masked.answer(&Hard, 1024, None), &truth).pixel_match;
     assert!(good >= 0.98, "pixel match {good}");
@@ -110,8 +110,8 @@ fn holes(gpu: &antumbra_testing::Gpu) {
     let other = score(&solid.answer(&Hard, 1024, None), &truth).pixel_match;
     assert!(other < 0.98, "pixel match {other}");
     let dark =
-        |shot: &Shot| shot.answer(&Hard, 1024, None).values.iter().filter(|v| **v < 0.5).count() as f64;
-    let share = dark(&masked) / dark(&solid);
+        |shot: &mut Shot| shot.answer(&Hard, 1024, None).values.iter().filter(|v| **v < 0.5).count() as f64;
+    let share = dark(&mut masked) / dark(&mut solid);
     assert!((0.4..0.6).contains(&share), "half of the fields are open, yet {share} of the shadow is left");
 }
 
@@ -152,7 +152,7 @@ impl Technique for Gradients {
 /// pixel's own surface: compared with rays in f64, on a plane that is tilted to camera and light.
 fn derivatives(gpu: &antumbra_testing::Gpu) {
     let corners = square(2.0, 0.5, 0.6);
-    let shot =
+    let mut shot =
         Shot::new(gpu, &placed(vec![quad(corners, 0)], vec![Material::default()], Vec::new()), [160, 120]);
     let [a, b, c, _] = corners.map(Vec3::as_dvec3);
     let normal = (b - a).cross(c - a);
@@ -161,7 +161,7 @@ fn derivatives(gpu: &antumbra_testing::Gpu) {
         let ray = rays.ray(x, y);
         ray.origin + ray.direction * (normal.dot(a - ray.origin) / normal.dot(ray.direction))
     };
-    let worst = |picked: usize, expected: usize| {
+    let mut worst = |picked: usize, expected: usize| {
         let weights = std::array::from_fn(|i| if i == picked { 1.0 } else { 0.0 });
         let (maps, view) = shot.maps(&[&Gradients(weights)], 256, None);
         let matrix = view.clip_from_world.as_dmat4();
@@ -197,7 +197,7 @@ const SPOT_BOUNDS: [(&str, f64); 5] =
 
 /// Bounds on the distance from truth, which pictures that are wrong must exceed.
 fn spot(gpu: &antumbra_testing::Gpu) {
-    let shot = Shot::new(gpu, &procedural::by_name("spot").unwrap().scene(1), [320, 240]);
+    let mut shot = Shot::new(gpu, &procedural::by_name("spot").unwrap().scene(1), [320, 240]);
     let techniques = compare::techniques(&["all".into()], KERNEL).unwrap();
     let all: Vec<&dyn Technique> = techniques.iter().map(|t| t.as_ref()).collect();
     let (maps, view) = shot.maps(&all, 1024, None);

@@ -179,6 +179,8 @@ fn overlap(receivers: [f64; 2], casters: [f64; 2]) -> ([f64; 2], [f64; 2]) {
     (both, [cut(0), cut(1)])
 }
 
+/// Smallest extent of a scene, in its own unit, that views tell from nothing.
+const TINY: f64 = 1e-25;
 /// How far in front of the nearest receiver casters are kept apart, in depth ranges of the receivers.
 const APART: f64 = 0.1;
 
@@ -188,7 +190,7 @@ fn directional(axes: Axes, fit: &Fit) -> Result<View, LightError> {
     // Across: where both are. Where nothing casts, everything is lit without a map.
     let (x, cut_x) = overlap([low.x, high.x], [caster_low.x, caster_high.x]);
     let (y, cut_y) = overlap([low.y, high.y], [caster_low.y, caster_high.y]);
-    let span = f64::from(f32::EPSILON) * 64.0 * (1.0 + low.abs().max(high.abs()).max_element());
+    let span = f64::from(f32::EPSILON) * 64.0 * low.abs().max(high.abs()).max_element().max(TINY);
     // One texel of slack for snapping; where the casters end, receivers up to a kernel further on
     // are still in their penumbra.
     let margin = f64::from(fit.margin_texels);
@@ -287,7 +289,7 @@ pub fn visible_hull(
         .filter(|p| p.truncate().length() > 1e-12)
         .map(|p| p / p.truncate().length())
         .collect();
-    let slack = 1e-6 * (1.0 + low.abs().max(high.abs()).max_element());
+    let slack = 1e-6 * low.abs().max(high.abs()).max_element().max(TINY);
     let inside = |p: DVec3| planes.iter().all(|q| q.dot(p.extend(1.0)) >= -slack);
     let mut hull = Vec::new();
     for i in 0..planes.len() {

@@ -25,7 +25,7 @@ pub(crate) fn run(arguments: &Bench) -> Result<()> {
     let techniques = compare::techniques(&arguments.techniques, arguments.scene.kernel)?;
     let setting = scene::load(&arguments.scene)?;
     let gpu = Gpu::new()?;
-    let stage = Stage::new(&gpu, &setting.geometry, &setting.camera, &setting.light, setting.resolution)?;
+    let mut stage = Stage::new(&gpu, &setting.geometry, &setting.camera, &setting.light, setting.resolution)?;
     let lighting = Lighting::new(&gpu, &stage);
     let pipelines = Pipelines::new(&gpu.device);
     let mut shadows = Vec::new();
@@ -34,7 +34,7 @@ pub(crate) fn run(arguments: &Bench) -> Result<()> {
         shadows.push(ShadowMap::new(&gpu.device, technique.as_ref(), options)?);
     }
     let view = compare::view(&stage, &setting.geometry, &setting.light, &shadows.iter().collect::<Vec<_>>())?;
-    stage.set_view(&gpu, &view);
+    stage.set_views(&gpu, &[view]);
     for map in &mut shadows {
         map.prepare(&gpu.queue, &[view])?;
     }

@@ -34,7 +34,7 @@ pub(crate) fn run(arguments: &Render) -> Result<()> {
     }
     let setting = scene::load(&arguments.scene)?;
     let gpu = Gpu::new()?;
-    let stage = Stage::new(&gpu, &setting.geometry, &setting.camera, &setting.light, setting.resolution)?;
+    let mut stage = Stage::new(&gpu, &setting.geometry, &setting.camera, &setting.light, setting.resolution)?;
     let lighting = Lighting::new(&gpu, &stage);
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     stage.encode_surfaces(&mut encoder, None);
@@ -49,10 +49,10 @@ pub(crate) fn run(arguments: &Render) -> Result<()> {
             let size = Options::from(Size::square(arguments.scene.size));
             let mut shadows = ShadowMap::new(&gpu.device, technique.as_ref(), size)?;
             let view = compare::view(&stage, &setting.geometry, &setting.light, &[&shadows])?;
-            stage.set_view(&gpu, &view);
+            stage.set_views(&gpu, &[view]);
             shadows.prepare(&gpu.queue, &[view])?;
             let lookup = Lookup::new(&gpu, &stage, &shadows);
-            shadows.encode(&mut encoder, |_, pass| stage.draw_casters(pass));
+            shadows.encode(&mut encoder, |view, pass| stage.draw_casters(view, pass));
             lighting.encode_lookup(&mut encoder, &stage, &lookup, Some(&shadows), None);
         }
     }

@@ -1,6 +1,6 @@
 //! The pipelines that draw geometry.
 
-use super::{Attributes, surfaces, uniform};
+use super::{Attributes, Offset, surfaces, uniform_entry};
 use crate::gpu::Gpu;
 use antumbra::Capabilities;
 use wgpu::{BindGroupLayout, RenderPipeline, TextureFormat, VertexFormat};
@@ -34,7 +34,7 @@ impl Pipelines {
     pub(super) fn new(gpu: &Gpu, material: &BindGroupLayout) -> Self {
         let uniform = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("uniform"),
-            entries: &[uniform(0)],
+            entries: &[uniform_entry(0, Offset::Dynamic)],
         });
         let layout = |groups: &[Option<&BindGroupLayout>]| {
             gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {

@@ -70,11 +70,11 @@ impl Shot {
     }
 
     /// What one of them answers for every pixel.
-    pub(crate) fn visibility(&self, shadows: &ShadowMap, view: &View) -> Plane {
-        self.stage.set_view(&self.gpu, view);
+    pub(crate) fn visibility(&mut self, shadows: &ShadowMap, view: &View) -> Plane {
+        self.stage.set_views(&self.gpu, &[*view]);
         let lookup = Lookup::new(&self.gpu, &self.stage, shadows);
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
-        shadows.encode(&mut encoder, |_, pass| self.stage.draw_casters(pass));
+        shadows.encode(&mut encoder, |view, pass| self.stage.draw_casters(view, pass));
         self.stage.encode_surfaces(&mut encoder, None);
         self.lighting.encode_lookup(&mut encoder, &self.stage, &lookup, Some(shadows), None);
         self.gpu.finish(encoder).unwrap();
@@ -82,7 +82,7 @@ impl Shot {
     }
 
     /// The same for a single technique.
-    pub(crate) fn answer(&self, technique: &dyn Technique, size: u32, bias: Option<Bias>) -> Plane {
+    pub(crate) fn answer(&mut self, technique: &dyn Technique, size: u32, bias: Option<Bias>) -> Plane {
         let (maps, view) = self.maps(&[technique], size, bias);
         self.visibility(&maps[0], &view)
     }

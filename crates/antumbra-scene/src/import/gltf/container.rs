@@ -9,7 +9,18 @@ use std::path::Path;
 /// Splits a file into its JSON and, for GLB, its binary chunk.
 pub(super) fn split(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), Problem> {
     if !bytes.starts_with(b"glTF") {
-        return Ok((bytes, None));
+        return match bytes.trim_ascii_start() {
+            [b'{', ..] => Ok((bytes, None)),
+            [] => Err(invalid("file", "empty", "a GLB or a JSON document is needed")),
+            [..] => {
+                let start = bytes[..bytes.len().min(4)].escape_ascii();
+                Err(invalid(
+                    "file",
+                    format!("\"{start}\" at its start"),
+                    "a GLB starts with glTF, JSON with {",
+                ))
+            }
+        };
     }
     let word = |at: usize| {
         bytes.get(at..at + 4).and_then(|b| b.try_into().ok()).map(|b| u32::from_le_bytes(b) as usize)
