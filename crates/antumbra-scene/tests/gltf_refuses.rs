@@ -23,7 +23,11 @@ fn after(change: impl FnOnce(&mut Value)) -> String {
 
 #[test]
 fn not_gltf() {
-    assert_eq!(refusal(b""), "test.gltf: JSON: EOF while parsing a value at line 1 column 0");
+    assert_eq!(refusal(b""), "test.gltf: file is empty; a GLB or a JSON document is needed");
+    assert_eq!(
+        refusal(b"\x89PNG\r\n"),
+        r#"test.gltf: file is "\x89PNG" at its start; a GLB starts with glTF, JSON with {"#
+    );
     assert!(refusal(b"{}").contains("missing field `asset`"));
     assert_eq!(
         refusal(br#"{"asset": {"version": "2.0"}}"#),
