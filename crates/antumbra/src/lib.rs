@@ -54,6 +54,7 @@
 //! | `vsm` | [`Vsm`] | 8 bytes, 1⅓ times with mips | 1 | any blur for the price of its passes; light bleeds where casters overlap |
 //! | `csm` | [`Csm`] | 4·⌈M/2⌉ bytes, 1⅓ times with mips | ⌈M/2⌉ | does not bleed between layers; bright near contact, rings |
 //! | `esm` | [`Esm`] | 4 bytes, 1⅓ times with mips | 1 | cheapest filtered map, no bias; too bright where casters lie close behind one another |
+//! | `evsm` | [`Evsm`] | 16 bytes (4 to 8 as options), 1⅓ times with mips | 1 | bleeds next to nothing with 32 bits; bright where a caster nearly touches its receiver |
 //!
 //! A technique is a value whose public fields are its settings; [`technique::parse`] reads them from
 //! text (`esm.c=60,kernel=7`) and [`technique::all`] lists them. All of them run through the same
@@ -112,4 +113,4 @@ pub use map::{
 };
 pub use parameter::{Choice, Field, Parameter};
 pub use shader::{CASTER_WGSL, ShaderText};
-pub use technique::{Technique, csm::Csm, esm::Esm, hard::Hard, pcf::Pcf, vsm::Vsm};
+pub use technique::{Technique, csm::Csm, esm::Esm, evsm::Evsm, hard::Hard, pcf::Pcf, vsm::Vsm};

@@ -287,4 +287,5 @@ techniques! {
     vsm::Vsm,
     csm::Csm,
     esm::Esm,
+    evsm::Evsm,
 }

@@ -7,7 +7,8 @@
 mod common;
 
 use antumbra::{
-    Capabilities, Light, Size, Technique, technique, technique::csm, technique::esm, technique::vsm,
+    Capabilities, Light, Size, Technique, technique, technique::csm, technique::esm, technique::evsm,
+    technique::vsm,
 };
 use antumbra_testing::{Gpu, Trials};
 use common::{Random, compute, depth_texture, shadow_map, texels};
@@ -20,7 +21,7 @@ const INPUTS: usize = 16;
 type Row = [f32; INPUTS];
 
 /// Encode functions that a trial below compares.
-const ENCODE_FUNCTIONS: [&str; 3] = ["vsm_encode", "csm_encode", "esm_encode"];
+const ENCODE_FUNCTIONS: [&str; 4] = ["vsm_encode", "csm_encode", "esm_encode", "evsm_encode"];
 
 /// WGSL allows sin and cos this absolute error within ±π: 2^−11.
 const SINE: f64 = 4.9e-4;
@@ -170,6 +171,63 @@ fn vsm_and_chebyshev_bound(gpu: &Gpu) {
     compare_from(1, &rows, &found, bound(1.1, 0.0)).unwrap_err();
     let reduce = |r: &[f64; INPUTS]| ([((r[0] - r[4]) / (1.0 - r[4])).clamp(0.0, 1.0)], 1e-5);
     compare_from(2, &rows, &found, reduce).unwrap();
+}
+
+/// exp: as for esm, with exponents up to 42. The bound's variance is a difference of squares that
+/// are that uncertain, over its floor; so is the distance to the mean, over its standard deviation.
+fn evsm_encodes_and_bounds(gpu: &Gpu) {
+    const EXP: f64 = 2e-5;
+    let plain = evsm::Evsm::default();
+    for (evsm, warps) in [
+        (plain, 2),
+        (evsm::Evsm { moments: evsm::Moments::Two, ..plain }, 1),
+        (evsm::Evsm { format: evsm::Format::Float16, reduction: 0.2, ..plain }, 2),
+    ] {
+        let spec = technique::spec(&evsm);
+        let shadows = shadows(gpu, &evsm, 1);
+        let c = evsm.exponents().map(f64::from);
+        // Two casters, mixed: some close together and close to the receiver.
+        let rows = rows(13, |r| {
+            let (far, share) = (r.unit(), f64::from(r.unit()));
+            let near = far * r.unit().sqrt();
+            let depth = (far + 0.2 * r.range(-1.0, 1.0)).clamp(0.0, 1.0);
+            let [a, b] = [near, far].map(|z| evsm::reference::encode(z.into(), c));
+            let m: [f64; 4] = std::array::from_fn(|i| a[i] + share * (b[i] - a[i]));
+            row([depth, m[0] as f32, m[1] as f32, m[2] as f32, m[3] as f32])
+        });
+        let body = "
+            let depths = mat3x3f(vec3f(0.0), vec3f(0.0, take(0u), 0.0), vec3f(0.0));
+            let c = vec2f(shadow.setting_positive, shadow.setting_negative);
+            let least = vec3f(shadow.setting_least_variance, shadow.setting_rounding, shadow.setting_denormal);
+            let reduction = shadow.setting_reduction;
+            put4(0u, evsm_encode(depths, 0u, c.x, c.y, least.x, least.y, least.z, reduction));
+            let moments = vec4f(take2(1u), take2(3u));
+            put(4u, evsm_bound(take(0u), moments, c.x, c.y, least.x, least.y, least.z, reduction));";
+        let found = run::<5>(gpu, &shadows, body, &rows);
+        for (i, moment) in ["e", "e²", "−e", "e²"].iter().enumerate() {
+            let encode = |factor: f64| {
+                move |r: &[f64; INPUTS]| {
+                    let e = evsm::reference::encode(r[0], c.map(|c| c * factor))[i];
+                    ([e], e.abs() * 2.0 * EXP)
+                }
+            };
+            let one: Vec<[f32; 1]> = found.iter().map(|f| [f[i]]).collect();
+            compare(&rows, &one, encode(1.0)).unwrap_or_else(|e| panic!("{spec} {moment}: {e}"));
+            compare(&rows, &one, encode(1.001)).unwrap_err();
+        }
+        let bound = |offset: f64| {
+            move |r: &[f64; INPUTS]| {
+                let bounds = evsm::reference::bounds(&evsm, r[0] + offset, [r[1], r[2], r[3], r[4]]);
+                let reduction = f64::from(evsm.reduction);
+                let v = bounds[..warps].iter().fold(1.0, |a: f64, b| a.min(*b));
+                // Least relative variance of both formats' floors: 5.8e-3.
+                let error = 2.0 * EXP / 5e-3 + 2.0 * EXP / 5e-3f64.sqrt();
+                ([((v - reduction) / (1.0 - reduction)).max(0.0)], error / (1.0 - reduction))
+            }
+        };
+        compare_from(4, &rows, &found, bound(0.0)).unwrap_or_else(|e| panic!("{spec}: {e}"));
+        compare_from(4, &rows, &found, bound(0.003)).unwrap_err();
+    }
 }
 
 /// Every layer's sum, from the stored form, is the series. Each term errs by two products of sines; the weights of 16 terms sum to 1.5.
@@ -510,6 +568,7 @@ fn main() {
     trials.add("esm encodes and bounds", esm_encodes_and_bounds);
     trials.add("vsm encodes", vsm_encodes);
     trials.add("vsm and chebyshev bound", vsm_and_chebyshev_bound);
+    trials.add("evsm encodes and bounds", evsm_encodes_and_bounds);
     trials.add("csm sums its series", csm_sums_its_series);
     trials.add("raster depth is linearised", raster_depth_is_linearised);
     trials.add("raster depth is cleaned", raster_depth_is_cleaned);
