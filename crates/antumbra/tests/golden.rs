@@ -155,6 +155,12 @@ fn evsm_bleeds_less_than_vsm(gpu: &Gpu) {
     assert_eq!(acne(gpu, "evsm") + acne(gpu, "evsm.format=float16"), 0.0);
 }
 
+fn msm_bleeds_less_than_vsm(gpu: &Gpu) {
+    let leak = |spec| share_of_leak(gpu, spec);
+    assert!(leak("msm") < 0.2, "{} of vsm's", leak("msm"));
+    assert_eq!(acne(gpu, "msm") + acne(gpu, "msm.format=float32"), 0.0);
+}
+
 fn csm_is_brighter_at_contact_with_fewer_terms(gpu: &Gpu) {
     let foot = |u: f32, v: f32| {
         (0.68..0.87).contains(&u) && up_the_ramp(u, v).is_some_and(|t| (0.03..0.07).contains(&t))
@@ -184,6 +190,7 @@ fn main() {
         ("csm", "brighter at contact with fewer terms", csm_is_brighter_at_contact_with_fewer_terms),
         ("esm", "needs no bias", esm_needs_no_bias),
         ("evsm", "bleeds less than vsm", evsm_bleeds_less_than_vsm),
+        ("msm", "bleeds less than vsm", msm_bleeds_less_than_vsm),
     ];
     let path =
         |name: &str| PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("tests/golden/{name}.png"));

@@ -8,7 +8,7 @@ mod common;
 
 use antumbra::{
     Capabilities, Light, Size, Technique, technique, technique::csm, technique::esm, technique::evsm,
-    technique::vsm,
+    technique::msm, technique::vsm,
 };
 use antumbra_testing::{Gpu, Trials};
 use common::{Random, compute, depth_texture, shadow_map, texels};
@@ -21,7 +21,7 @@ const INPUTS: usize = 16;
 type Row = [f32; INPUTS];
 
 /// Encode functions that a trial below compares.
-const ENCODE_FUNCTIONS: [&str; 4] = ["vsm_encode", "csm_encode", "esm_encode", "evsm_encode"];
+const ENCODE_FUNCTIONS: [&str; 5] = ["vsm_encode", "csm_encode", "esm_encode", "evsm_encode", "msm_encode"];
 
 /// WGSL allows sin and cos this absolute error within ±π: 2^−11.
 const SINE: f64 = 4.9e-4;
@@ -228,6 +228,56 @@ fn evsm_encodes_and_bounds(gpu: &Gpu) {
         compare_from(4, &rows, &found, bound(0.0)).unwrap_or_else(|e| panic!("{spec}: {e}"));
         compare_from(4, &rows, &found, bound(0.003)).unwrap_err();
     }
+}
+
+/// The bound is as uncertain as rounding of the moments makes it, which is found by trying.
+fn msm_encodes_and_bounds(gpu: &Gpu) {
+    use msm::reference;
+    const BIAS: f64 = 1e-3;
+    let shadows = shadows(gpu, &msm::Msm::default(), 1);
+    // Three casters, mixed.
+    let rows = rows(14, |r| {
+        let z = [r.unit(), r.unit(), r.unit()].map(|z| reference::moments(z.into()));
+        let (a, b) = (f64::from(r.unit()), f64::from(r.unit()));
+        let m: [f64; 4] =
+            std::array::from_fn(|i| a * z[0][i] + (1.0 - a) * (b * z[1][i] + (1.0 - b) * z[2][i]));
+        row([r.unit(), m[0] as f32, m[1] as f32, m[2] as f32, m[3] as f32, r.range(0.0, 0.5)])
+    });
+    let body = "
+        let depths = mat3x3f(vec3f(0.0), vec3f(0.0, take(0u), 0.0), vec3f(0.0));
+        let moments = vec4f(take2(1u), take2(3u));
+        put4(0u, msm_encode(depths, 0u, 0.0, 0.0));
+        put4(4u, msm_restore(msm_transform(moments)));
+        put(8u, msm_bound(take(0u), moments, 1e-3, take(5u)));";
+    let found = run::<9>(gpu, &shadows, body, &rows);
+    let encode = |factor: f64| {
+        move |r: &[f64; INPUTS]| {
+            let t = reference::apply(reference::transform(), reference::moments(factor * r[0]));
+            (std::array::from_fn(|i| t[i] + reference::SHIFT[i]), 2e-6)
+        }
+    };
+    compare::<9, 4>(&rows, &found, encode(1.0)).unwrap();
+    compare::<9, 4>(&rows, &found, encode(1.001)).unwrap_err();
+    let restored = |sign: f64| move |r: &[f64; INPUTS]| ([r[1], r[2], sign * r[3], r[4]], 2e-6);
+    compare_from(4, &rows, &found, restored(1.0)).unwrap();
+    compare_from(4, &rows, &found, restored(1.001)).unwrap_err();
+    let bound = |offset: f64| {
+        move |r: &[f64; INPUTS]| {
+            let m = [r[1], r[2], r[3], r[4]];
+            let at = |d: f64, m| {
+                let v = reference::bound(d, m, BIAS).clamp(0.0, 1.0);
+                ((v - r[5]) / (1.0 - r[5])).max(0.0)
+            };
+            let v = at(r[0] + offset, m);
+            let moved = |i: usize| {
+                let shift = |s: f64| std::array::from_fn(|j| m[j] + if i == j { s } else { 0.0 });
+                (at(r[0], shift(3e-7)) - at(r[0], m)).abs().max((at(r[0], shift(-3e-7)) - at(r[0], m)).abs())
+            };
+            ([v], 1e-5 + (0..4).map(moved).sum::<f64>())
+        }
+    };
+    compare_from(8, &rows, &found, bound(0.0)).unwrap();
+    compare_from(8, &rows, &found, bound(0.001)).unwrap_err();
 }
 
 /// Every layer's sum, from the stored form, is the series. Each term errs by two products of sines; the weights of 16 terms sum to 1.5.
@@ -569,6 +619,7 @@ fn main() {
     trials.add("vsm encodes", vsm_encodes);
     trials.add("vsm and chebyshev bound", vsm_and_chebyshev_bound);
     trials.add("evsm encodes and bounds", evsm_encodes_and_bounds);
+    trials.add("msm encodes and bounds", msm_encodes_and_bounds);
     trials.add("csm sums its series", csm_sums_its_series);
     trials.add("raster depth is linearised", raster_depth_is_linearised);
     trials.add("raster depth is cleaned", raster_depth_is_cleaned);
