@@ -56,6 +56,7 @@
 //! | `esm` | [`Esm`] | 4 bytes, 1⅓ times with mips | 1 | cheapest filtered map, no bias; too bright where casters lie close behind one another |
 //! | `evsm` | [`Evsm`] | 16 bytes (4 to 8 as options), 1⅓ times with mips | 1 | bleeds next to nothing with 32 bits; bright where a caster nearly touches its receiver |
 //! | `msm` | [`Msm`] | 8 bytes, 1⅓ times with mips | 1 | bleeds only where three casters overlap, at half the memory of `evsm`; more arithmetic at lookup |
+//! | `lvsm` | [`Lvsm`] | 16·⌈L/2⌉ bytes, 1⅓ times with mips | ⌈L/2⌉ | bleeds only within an interval of depth; memory grows with the intervals |
 //!
 //! A technique is a value whose public fields are its settings; [`technique::parse`] reads them from
 //! text (`esm.c=60,kernel=7`) and [`technique::all`] lists them. All of them run through the same
@@ -115,4 +116,6 @@ pub use map::{
 };
 pub use parameter::{Choice, Field, Parameter};
 pub use shader::{CASTER_WGSL, ShaderText};
-pub use technique::{Technique, csm::Csm, esm::Esm, evsm::Evsm, hard::Hard, msm::Msm, pcf::Pcf, vsm::Vsm};
+pub use technique::{
+    Technique, csm::Csm, esm::Esm, evsm::Evsm, hard::Hard, lvsm::Lvsm, msm::Msm, pcf::Pcf, vsm::Vsm,
+};

@@ -294,4 +294,5 @@ techniques! {
     esm::Esm,
     evsm::Evsm,
     msm::Msm,
+    lvsm::Lvsm,
 }

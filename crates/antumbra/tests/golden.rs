@@ -161,6 +161,15 @@ fn msm_bleeds_less_than_vsm(gpu: &Gpu) {
     assert_eq!(acne(gpu, "msm") + acne(gpu, "msm.format=float32"), 0.0);
 }
 
+fn lvsm_bleeds_less_than_vsm(gpu: &Gpu) {
+    let leak = |spec| share_of_leak(gpu, spec);
+    assert!(leak("lvsm") < 0.2, "{} of vsm's", leak("lvsm"));
+    assert_eq!(acne(gpu, "lvsm"), 0.0);
+    // The ground crosses four fifths of the depth range.
+    assert_eq!(acne(gpu, "lvsm.intervals=5"), 0.0);
+    assert!(acne(gpu, "lvsm.intervals=5,overlap=0") > 0.0, "an overlap keeps slopes lit");
+}
+
 fn csm_is_brighter_at_contact_with_fewer_terms(gpu: &Gpu) {
     let foot = |u: f32, v: f32| {
         (0.68..0.87).contains(&u) && up_the_ramp(u, v).is_some_and(|t| (0.03..0.07).contains(&t))
@@ -191,6 +200,7 @@ fn main() {
         ("esm", "needs no bias", esm_needs_no_bias),
         ("evsm", "bleeds less than vsm", evsm_bleeds_less_than_vsm),
         ("msm", "bleeds less than vsm", msm_bleeds_less_than_vsm),
+        ("lvsm", "bleeds less than vsm", lvsm_bleeds_less_than_vsm),
     ];
     let path =
         |name: &str| PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("tests/golden/{name}.png"));

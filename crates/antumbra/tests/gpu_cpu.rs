@@ -8,7 +8,7 @@ mod common;
 
 use antumbra::{
     Capabilities, Light, Size, Technique, technique, technique::csm, technique::esm, technique::evsm,
-    technique::msm, technique::vsm,
+    technique::lvsm, technique::msm, technique::vsm,
 };
 use antumbra_testing::{Gpu, Trials};
 use common::{Random, compute, depth_texture, shadow_map, texels};
@@ -21,7 +21,8 @@ const INPUTS: usize = 16;
 type Row = [f32; INPUTS];
 
 /// Encode functions that a trial below compares.
-const ENCODE_FUNCTIONS: [&str; 5] = ["vsm_encode", "csm_encode", "esm_encode", "evsm_encode", "msm_encode"];
+const ENCODE_FUNCTIONS: [&str; 6] =
+    ["vsm_encode", "csm_encode", "esm_encode", "evsm_encode", "msm_encode", "lvsm_encode"];
 
 /// WGSL allows sin and cos this absolute error within ±π: 2^−11.
 const SINE: f64 = 4.9e-4;
@@ -278,6 +279,38 @@ fn msm_encodes_and_bounds(gpu: &Gpu) {
     };
     compare_from(8, &rows, &found, bound(0.0)).unwrap();
     compare_from(8, &rows, &found, bound(0.001)).unwrap_err();
+}
+
+/// As for vsm, with depth stretched by up to 7 and rounded as much more.
+fn lvsm_encodes_and_bounds(gpu: &Gpu) {
+    let lvsm = lvsm::Lvsm { intervals: 7, overlap: 0.25, least_variance: 1e-4, ..lvsm::Lvsm::default() };
+    let shadows = shadows(gpu, &lvsm, 1);
+    let rows = rows(15, |r| {
+        let (mean, variance) = (r.unit(), 10f32.powf(r.range(-6.0, -1.0)));
+        row([r.unit(), mean, mean * mean + variance, (r.unit() * 8.0).floor()])
+    });
+    let body = "
+        let depths = mat3x3f(vec3f(0.0), vec3f(0.0, take(0u), 0.0), vec3f(0.0));
+        let i = u32(take(3u));
+        let pair = lvsm_encode(depths, i / 2u, 0.25, 1e-4, 0.0);
+        put2(0u, select(pair.xy, pair.zw, i % 2u == 1u));
+        put(2u, lvsm_one(take(0u), take2(1u), i, 0.25, 1e-4));";
+    let found = run::<3>(gpu, &shadows, body, &rows);
+    let encode = |factor: f64| {
+        move |r: &[f64; INPUTS]| {
+            let w = lvsm::reference::warp(&lvsm, factor * r[0], r[3] as u32);
+            ([w, w * w], 5e-6)
+        }
+    };
+    compare::<3, 2>(&rows, &found, encode(1.0)).unwrap();
+    compare::<3, 2>(&rows, &found, encode(1.001)).unwrap_err();
+    let bound = |factor: f64| {
+        move |r: &[f64; INPUTS]| {
+            ([lvsm::reference::bound(&lvsm, factor * r[0], [r[1], r[2]], r[3] as u32)], 2e-4)
+        }
+    };
+    compare_from(2, &rows, &found, bound(1.0)).unwrap();
+    compare_from(2, &rows, &found, bound(1.005)).unwrap_err();
 }
 
 /// Every layer's sum, from the stored form, is the series. Each term errs by two products of sines; the weights of 16 terms sum to 1.5.
@@ -620,6 +653,7 @@ fn main() {
     trials.add("vsm and chebyshev bound", vsm_and_chebyshev_bound);
     trials.add("evsm encodes and bounds", evsm_encodes_and_bounds);
     trials.add("msm encodes and bounds", msm_encodes_and_bounds);
+    trials.add("lvsm encodes and bounds", lvsm_encodes_and_bounds);
     trials.add("csm sums its series", csm_sums_its_series);
     trials.add("raster depth is linearised", raster_depth_is_linearised);
     trials.add("raster depth is cleaned", raster_depth_is_cleaned);

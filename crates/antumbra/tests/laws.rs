@@ -37,6 +37,7 @@ fn specs() -> Vec<String> {
         more("sampling", "sampling=anisotropic");
         more("sampling", "sampling=nearest,kernel=1");
         more("moments", "moments=two");
+        more("intervals", "intervals=7,overlap=0");
         for p in &technique.parameters() {
             if let ("format", antumbra::Field::Choice(choice)) = (p.name, &p.field) {
                 let others = choice.names().iter().filter(|n| **n != p.value());
@@ -434,6 +435,15 @@ fn broken() -> Vec<(&'static str, Law, Broken)> {
             "a root on the wrong side",
             is_dark_behind_a_blocker,
             Broken::saying("msm", "} else if x <= far {", "} else if x >= far {"),
+        ),
+        (
+            "the receiver's interval without those before it",
+            darkens_with_depth,
+            Broken::saying(
+                "lvsm",
+                "bound = min(bound, lvsm_one(depth, moments.xy",
+                "bound = min(1.0, lvsm_one(depth, moments.xy",
+            ),
         ),
         ("a blur that brightens", filtering_keeps_the_mean, Broken { weights: 1.01, ..Broken::new("vsm") }),
         (
