@@ -27,6 +27,17 @@ impl Capabilities {
         )
     }
 
+    /// Whether a map may have this format: guaranteed, or allowed by adapters that offer the format
+    /// (16-bit norm: every one that does can render to it, but only a device that was asked for
+    /// `TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES` lets us).
+    #[must_use]
+    pub fn renders(&self, format: TextureFormat) -> bool {
+        let usages = format.guaranteed_format_features(self.features).allowed_usages;
+        self.features.contains(format.required_features())
+            && (usages.contains(wgpu::TextureUsages::RENDER_ATTACHMENT)
+                || self.features.contains(Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES))
+    }
+
     /// How many layers of this format one render pass can write.
     #[must_use]
     pub fn targets_per_pass(&self, format: TextureFormat) -> u32 {

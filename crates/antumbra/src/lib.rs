@@ -54,6 +54,9 @@
 //! | `vsm` | [`Vsm`] | 8 bytes, 1⅓ times with mips | 1 | any blur for the price of its passes; light bleeds where casters overlap |
 //! | `csm` | [`Csm`] | 4·⌈M/2⌉ bytes, 1⅓ times with mips | ⌈M/2⌉ | does not bleed between layers; bright near contact, rings |
 //! | `esm` | [`Esm`] | 4 bytes, 1⅓ times with mips | 1 | cheapest filtered map, no bias; too bright where casters lie close behind one another |
+//! | `evsm` | [`Evsm`] | 16 bytes (4 to 8 as options), 1⅓ times with mips | 1 | bleeds next to nothing with 32 bits; bright where a caster nearly touches its receiver |
+//! | `msm` | [`Msm`] | 8 bytes, 1⅓ times with mips | 1 | bleeds only where three casters overlap, at half the memory of `evsm`; more arithmetic at lookup |
+//! | `lvsm` | [`Lvsm`] | 16·⌈L/2⌉ bytes, 1⅓ times with mips | ⌈L/2⌉ | bleeds only within an interval of depth; memory grows with the intervals |
 //!
 //! A technique is a value whose public fields are its settings; [`technique::parse`] reads them from
 //! text (`esm.c=60,kernel=7`) and [`technique::all`] lists them. All of them run through the same
@@ -77,13 +80,14 @@
 //!
 //! Vulkan, Metal, DX12 and WebGPU (also in the browser: there is no blocking call). GL and WebGL2
 //! are refused with [`Unsupported::Backend`]: a depth texture can only be compared there. No feature
-//! is required and WebGPU's default limits are enough; two features are used where the *device*
+//! is required and WebGPU's default limits are enough; a few features are used where the *device*
 //! was created with them, and [`ShadowMap::explain`] tells which path was taken:
 //!
 //! | without | instead |
 //! | --- | --- |
 //! | `FLOAT32_FILTERABLE` | 32-bit maps are interpolated in the shader, with the same result |
 //! | `DEPTH_CLIP_CONTROL` | casters in front of a view are moved onto its near plane by [`CASTER_WGSL`] in your vertex shader, instead of `unclipped_depth` in your pipeline |
+//! | `TEXTURE_FORMAT_16BIT_NORM` and `TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES` | moments of `msm` take 32 bits instead of 16 |
 //! | eight colour attachments of the format | layers are converted in several passes |
 //!
 //! # Features
@@ -112,4 +116,6 @@ pub use map::{
 };
 pub use parameter::{Choice, Field, Parameter};
 pub use shader::{CASTER_WGSL, ShaderText};
-pub use technique::{Technique, csm::Csm, esm::Esm, hard::Hard, pcf::Pcf, vsm::Vsm};
+pub use technique::{
+    Technique, csm::Csm, esm::Esm, evsm::Evsm, hard::Hard, lvsm::Lvsm, msm::Msm, pcf::Pcf, vsm::Vsm,
+};

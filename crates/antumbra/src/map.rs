@@ -334,6 +334,7 @@ impl ShadowMap {
                     .into(),
             );
         }
+        lines.extend(self.technique.fallbacks(&self.capabilities));
         let parts = self.technique.parts(&self.capabilities);
         for map in self.textures.maps() {
             let format = map.texture.format();

@@ -164,6 +164,11 @@ pub trait Technique: Debug + Send + Sync {
     /// # Errors
     /// [`Unsupported::Feature`] where no format will do.
     fn maps(&self, device: &Capabilities) -> Result<Vec<Map>, Unsupported>;
+    /// What it does otherwise than set because such a device cannot, one sentence each, for
+    /// [`ShadowMap::explain`](crate::ShadowMap::explain).
+    fn fallbacks(&self, _device: &Capabilities) -> Vec<String> {
+        Vec::new()
+    }
     /// What its visibility function reads, in parameter order.
     fn bindings(&self) -> Vec<Binding>;
     /// Its WGSL: the file beside the Rust file.
@@ -287,4 +292,7 @@ techniques! {
     vsm::Vsm,
     csm::Csm,
     esm::Esm,
+    evsm::Evsm,
+    msm::Msm,
+    lvsm::Lvsm,
 }

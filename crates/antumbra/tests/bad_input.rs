@@ -6,8 +6,9 @@
 mod common;
 
 use antumbra::{
-    Capabilities, Csm, Esm, Filter, Hard, LightError, NoProbe, Options, Pcf, Pipelines, SettingError,
-    ShadowMap, Size, Technique, Unsupported, Vsm, technique, technique::Bias,
+    Capabilities, Csm, Esm, Evsm, Filter, Hard, LightError, NoProbe, Options, Pcf, Pipelines, SettingError,
+    ShadowMap, Size, Technique, Unsupported, Vsm, technique,
+    technique::{Bias, evsm},
 };
 use antumbra_testing::{Gpu, Trials};
 
@@ -62,7 +63,7 @@ fn uniforms(_: &Gpu) {
 
 fn settings_in_public_fields(gpu: &Gpu) {
     let filter = |f: Filter| Esm { filter: f, ..Esm::default() };
-    let cases: [(Box<dyn Technique>, &[&str]); 11] = [
+    let cases: [(Box<dyn Technique>, &[&str]); 13] = [
         (Box::new(Esm { c: 88.0, ..Esm::default() }), &["esm.c", "88", "1 to 87"]),
         (Box::new(Esm { c: f32::NAN, ..Esm::default() }), &["esm.c", "NaN"]),
         (Box::new(filter(Filter { kernel: 4, ..Filter::default() })), &["esm.kernel", "4", "odd, 1 to 31"]),
@@ -74,6 +75,11 @@ fn settings_in_public_fields(gpu: &Gpu) {
         ),
         (Box::new(Csm { terms: 0, ..Csm::default() }), &["csm.terms", "0", "1 to 16"]),
         (Box::new(Csm { attenuation: f32::INFINITY, ..Csm::default() }), &["csm.attenuation", "inf"]),
+        (Box::new(Evsm { negative: 42.1, ..Evsm::default() }), &["evsm.negative", "42.1", "0 to 42"]),
+        (
+            Box::new(Evsm { positive: 40.0, format: evsm::Format::Float16, ..Evsm::default() }),
+            &["evsm.positive", "40", "0 to 5.54"],
+        ),
         (Box::new(Vsm { reduction: 1.0, ..Vsm::default() }), &["vsm.reduction", "1", "0 to 0.99"]),
         (Box::new(Pcf { kernel: 0, ..Pcf::default() }), &["pcf.kernel", "0", "1 to 16"]),
         (Box::new(Pcf { kernel: u32::MAX, ..Pcf::default() }), &["pcf.kernel"]),
@@ -207,6 +213,9 @@ fn least_devices(_: &Gpu) {
             gpu.queue.submit([encoder.finish()]);
             let explained = shadows.explain().join("\n");
             says(&explained, &["no depth clamping", "caster_pancaked"]);
+            if technique.page().name == "msm" {
+                says(&explained, &["32 bits instead of 16", "TEXTURE_FORMAT_16BIT_NORM", "in Rgba32Float"]);
+            }
             if technique.page().name == "csm" {
                 says(&explained, &["8 layers of basis in passes of 4"]);
             }

@@ -134,6 +134,42 @@ fn vsm_bleeds_between_two_layers(gpu: &Gpu) {
     assert!(esm < 0.02, "an exponential must not: {esm}");
 }
 
+/// Of the light that vsm lets through where the disc's rim lies over the sheet, the share that a
+/// technique lets through.
+fn share_of_leak(gpu: &Gpu, spec: &str) -> f32 {
+    let leak = |spec| mean(&at(&picture(gpu, spec, None), two_layers));
+    leak(spec) / leak("vsm")
+}
+
+/// Share of the open, slanted ground that is not quite lit.
+fn acne(gpu: &Gpu, spec: &str) -> f32 {
+    let open = at(&picture(gpu, spec, None), open);
+    open.iter().filter(|v| **v < 0.9).count() as f32 / open.len() as f32
+}
+
+fn evsm_bleeds_less_than_vsm(gpu: &Gpu) {
+    let leak = |spec| share_of_leak(gpu, spec);
+    assert!(leak("evsm") < 0.02, "{} of vsm's", leak("evsm"));
+    assert!(leak("evsm.format=float16") < 0.2, "{} of vsm's", leak("evsm.format=float16"));
+    assert!(leak("evsm.positive=1,negative=1") > 0.5, "nearly linear warps are vsm");
+    assert_eq!(acne(gpu, "evsm") + acne(gpu, "evsm.format=float16"), 0.0);
+}
+
+fn msm_bleeds_less_than_vsm(gpu: &Gpu) {
+    let leak = |spec| share_of_leak(gpu, spec);
+    assert!(leak("msm") < 0.2, "{} of vsm's", leak("msm"));
+    assert_eq!(acne(gpu, "msm") + acne(gpu, "msm.format=float32"), 0.0);
+}
+
+fn lvsm_bleeds_less_than_vsm(gpu: &Gpu) {
+    let leak = |spec| share_of_leak(gpu, spec);
+    assert!(leak("lvsm") < 0.2, "{} of vsm's", leak("lvsm"));
+    assert_eq!(acne(gpu, "lvsm"), 0.0);
+    // The ground crosses four fifths of the depth range.
+    assert_eq!(acne(gpu, "lvsm.intervals=5"), 0.0);
+    assert!(acne(gpu, "lvsm.intervals=5,overlap=0") > 0.0, "an overlap keeps slopes lit");
+}
+
 fn csm_is_brighter_at_contact_with_fewer_terms(gpu: &Gpu) {
     let foot = |u: f32, v: f32| {
         (0.68..0.87).contains(&u) && up_the_ramp(u, v).is_some_and(|t| (0.03..0.07).contains(&t))
@@ -156,12 +192,15 @@ fn esm_needs_no_bias(gpu: &Gpu) {
 
 fn main() {
     type Claim = (&'static str, &'static str, fn(&Gpu));
-    const CLAIMS: [Claim; 5] = [
+    const CLAIMS: &[Claim] = &[
         ("hard", "two levels", hard_has_two_levels),
         ("pcf", "as many levels as taps", pcf_has_as_many_levels_as_taps),
         ("vsm", "bleeds between two layers", vsm_bleeds_between_two_layers),
         ("csm", "brighter at contact with fewer terms", csm_is_brighter_at_contact_with_fewer_terms),
         ("esm", "needs no bias", esm_needs_no_bias),
+        ("evsm", "bleeds less than vsm", evsm_bleeds_less_than_vsm),
+        ("msm", "bleeds less than vsm", msm_bleeds_less_than_vsm),
+        ("lvsm", "bleeds less than vsm", lvsm_bleeds_less_than_vsm),
     ];
     let path =
         |name: &str| PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("tests/golden/{name}.png"));
@@ -176,7 +215,7 @@ fn main() {
         });
     }
     for (name, claim, check) in CLAIMS {
-        trials.add(format!("{name}: {claim}"), check);
+        trials.add(format!("{name}: {claim}"), *check);
     }
     trials.add("rejected: the picture of another technique", move |gpu| {
         let image = Image::grey(SIDE, &picture(gpu, "esm", None));

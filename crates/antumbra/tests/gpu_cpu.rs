@@ -7,7 +7,8 @@
 mod common;
 
 use antumbra::{
-    Capabilities, Light, Size, Technique, technique, technique::csm, technique::esm, technique::vsm,
+    Capabilities, Light, Size, Technique, technique, technique::csm, technique::esm, technique::evsm,
+    technique::lvsm, technique::msm, technique::vsm,
 };
 use antumbra_testing::{Gpu, Trials};
 use common::{Random, compute, depth_texture, shadow_map, texels};
@@ -20,7 +21,8 @@ const INPUTS: usize = 16;
 type Row = [f32; INPUTS];
 
 /// Encode functions that a trial below compares.
-const ENCODE_FUNCTIONS: [&str; 3] = ["vsm_encode", "csm_encode", "esm_encode"];
+const ENCODE_FUNCTIONS: [&str; 6] =
+    ["vsm_encode", "csm_encode", "esm_encode", "evsm_encode", "msm_encode", "lvsm_encode"];
 
 /// WGSL allows sin and cos this absolute error within ±π: 2^−11.
 const SINE: f64 = 4.9e-4;
@@ -170,6 +172,145 @@ fn vsm_and_chebyshev_bound(gpu: &Gpu) {
     compare_from(1, &rows, &found, bound(1.1, 0.0)).unwrap_err();
     let reduce = |r: &[f64; INPUTS]| ([((r[0] - r[4]) / (1.0 - r[4])).clamp(0.0, 1.0)], 1e-5);
     compare_from(2, &rows, &found, reduce).unwrap();
+}
+
+/// exp: as for esm, with exponents up to 42. The bound's variance is a difference of squares that
+/// are that uncertain, over its floor; so is the distance to the mean, over its standard deviation.
+fn evsm_encodes_and_bounds(gpu: &Gpu) {
+    const EXP: f64 = 2e-5;
+    let plain = evsm::Evsm::default();
+    for (evsm, warps) in [
+        (plain, 2),
+        (evsm::Evsm { moments: evsm::Moments::Two, ..plain }, 1),
+        (evsm::Evsm { format: evsm::Format::Float16, reduction: 0.2, ..plain }, 2),
+    ] {
+        let spec = technique::spec(&evsm);
+        let shadows = shadows(gpu, &evsm, 1);
+        let c = evsm.exponents().map(f64::from);
+        // Two casters, mixed: some close together and close to the receiver.
+        let rows = rows(13, |r| {
+            let (far, share) = (r.unit(), f64::from(r.unit()));
+            let near = far * r.unit().sqrt();
+            let depth = (far + 0.2 * r.range(-1.0, 1.0)).clamp(0.0, 1.0);
+            let [a, b] = [near, far].map(|z| evsm::reference::encode(z.into(), c));
+            let m: [f64; 4] = std::array::from_fn(|i| a[i] + share * (b[i] - a[i]));
+            row([depth, m[0] as f32, m[1] as f32, m[2] as f32, m[3] as f32])
+        });
+        let body = "
+            let depths = mat3x3f(vec3f(0.0), vec3f(0.0, take(0u), 0.0), vec3f(0.0));
+            let c = vec2f(shadow.setting_positive, shadow.setting_negative);
+            let least = vec3f(shadow.setting_least_variance, shadow.setting_rounding, shadow.setting_denormal);
+            let reduction = shadow.setting_reduction;
+            put4(0u, evsm_encode(depths, 0u, c.x, c.y, least.x, least.y, least.z, reduction));
+            let moments = vec4f(take2(1u), take2(3u));
+            put(4u, evsm_bound(take(0u), moments, c.x, c.y, least.x, least.y, least.z, reduction));";
+        let found = run::<5>(gpu, &shadows, body, &rows);
+        for (i, moment) in ["e", "e²", "−e", "e²"].iter().enumerate() {
+            let encode = |factor: f64| {
+                move |r: &[f64; INPUTS]| {
+                    let e = evsm::reference::encode(r[0], c.map(|c| c * factor))[i];
+                    ([e], e.abs() * 2.0 * EXP)
+                }
+            };
+            let one: Vec<[f32; 1]> = found.iter().map(|f| [f[i]]).collect();
+            compare(&rows, &one, encode(1.0)).unwrap_or_else(|e| panic!("{spec} {moment}: {e}"));
+            compare(&rows, &one, encode(1.001)).unwrap_err();
+        }
+        let bound = |offset: f64| {
+            move |r: &[f64; INPUTS]| {
+                let bounds = evsm::reference::bounds(&evsm, r[0] + offset, [r[1], r[2], r[3], r[4]]);
+                let reduction = f64::from(evsm.reduction);
+                let v = bounds[..warps].iter().fold(1.0, |a: f64, b| a.min(*b));
+                // Least relative variance of both formats' floors: 5.8e-3.
+                let error = 2.0 * EXP / 5e-3 + 2.0 * EXP / 5e-3f64.sqrt();
+                ([((v - reduction) / (1.0 - reduction)).max(0.0)], error / (1.0 - reduction))
+            }
+        };
+        compare_from(4, &rows, &found, bound(0.0)).unwrap_or_else(|e| panic!("{spec}: {e}"));
+        compare_from(4, &rows, &found, bound(0.003)).unwrap_err();
+    }
+}
+
+/// The bound is as uncertain as rounding of the moments makes it, which is found by trying.
+fn msm_encodes_and_bounds(gpu: &Gpu) {
+    use msm::reference;
+    const BIAS: f64 = 1e-3;
+    let shadows = shadows(gpu, &msm::Msm::default(), 1);
+    // Three casters, mixed.
+    let rows = rows(14, |r| {
+        let z = [r.unit(), r.unit(), r.unit()].map(|z| reference::moments(z.into()));
+        let (a, b) = (f64::from(r.unit()), f64::from(r.unit()));
+        let m: [f64; 4] =
+            std::array::from_fn(|i| a * z[0][i] + (1.0 - a) * (b * z[1][i] + (1.0 - b) * z[2][i]));
+        row([r.unit(), m[0] as f32, m[1] as f32, m[2] as f32, m[3] as f32, r.range(0.0, 0.5)])
+    });
+    let body = "
+        let depths = mat3x3f(vec3f(0.0), vec3f(0.0, take(0u), 0.0), vec3f(0.0));
+        let moments = vec4f(take2(1u), take2(3u));
+        put4(0u, msm_encode(depths, 0u, 0.0, 0.0));
+        put4(4u, msm_restore(msm_transform(moments)));
+        put(8u, msm_bound(take(0u), moments, 1e-3, take(5u)));";
+    let found = run::<9>(gpu, &shadows, body, &rows);
+    let encode = |factor: f64| {
+        move |r: &[f64; INPUTS]| {
+            let t = reference::apply(reference::transform(), reference::moments(factor * r[0]));
+            (std::array::from_fn(|i| t[i] + reference::SHIFT[i]), 2e-6)
+        }
+    };
+    compare::<9, 4>(&rows, &found, encode(1.0)).unwrap();
+    compare::<9, 4>(&rows, &found, encode(1.001)).unwrap_err();
+    let restored = |sign: f64| move |r: &[f64; INPUTS]| ([r[1], r[2], sign * r[3], r[4]], 2e-6);
+    compare_from(4, &rows, &found, restored(1.0)).unwrap();
+    compare_from(4, &rows, &found, restored(1.001)).unwrap_err();
+    let bound = |offset: f64| {
+        move |r: &[f64; INPUTS]| {
+            let m = [r[1], r[2], r[3], r[4]];
+            let at = |d: f64, m| {
+                let v = reference::bound(d, m, BIAS).clamp(0.0, 1.0);
+                ((v - r[5]) / (1.0 - r[5])).max(0.0)
+            };
+            let v = at(r[0] + offset, m);
+            let moved = |i: usize| {
+                let shift = |s: f64| std::array::from_fn(|j| m[j] + if i == j { s } else { 0.0 });
+                (at(r[0], shift(3e-7)) - at(r[0], m)).abs().max((at(r[0], shift(-3e-7)) - at(r[0], m)).abs())
+            };
+            ([v], 1e-5 + (0..4).map(moved).sum::<f64>())
+        }
+    };
+    compare_from(8, &rows, &found, bound(0.0)).unwrap();
+    compare_from(8, &rows, &found, bound(0.001)).unwrap_err();
+}
+
+/// As for vsm, with depth stretched by up to 7 and rounded as much more.
+fn lvsm_encodes_and_bounds(gpu: &Gpu) {
+    let lvsm = lvsm::Lvsm { intervals: 7, overlap: 0.25, least_variance: 1e-4, ..lvsm::Lvsm::default() };
+    let shadows = shadows(gpu, &lvsm, 1);
+    let rows = rows(15, |r| {
+        let (mean, variance) = (r.unit(), 10f32.powf(r.range(-6.0, -1.0)));
+        row([r.unit(), mean, mean * mean + variance, (r.unit() * 8.0).floor()])
+    });
+    let body = "
+        let depths = mat3x3f(vec3f(0.0), vec3f(0.0, take(0u), 0.0), vec3f(0.0));
+        let i = u32(take(3u));
+        let pair = lvsm_encode(depths, i / 2u, 0.25, 1e-4, 0.0);
+        put2(0u, select(pair.xy, pair.zw, i % 2u == 1u));
+        put(2u, lvsm_one(take(0u), take2(1u), i, 0.25, 1e-4));";
+    let found = run::<3>(gpu, &shadows, body, &rows);
+    let encode = |factor: f64| {
+        move |r: &[f64; INPUTS]| {
+            let w = lvsm::reference::warp(&lvsm, factor * r[0], r[3] as u32);
+            ([w, w * w], 5e-6)
+        }
+    };
+    compare::<3, 2>(&rows, &found, encode(1.0)).unwrap();
+    compare::<3, 2>(&rows, &found, encode(1.001)).unwrap_err();
+    let bound = |factor: f64| {
+        move |r: &[f64; INPUTS]| {
+            ([lvsm::reference::bound(&lvsm, factor * r[0], [r[1], r[2]], r[3] as u32)], 2e-4)
+        }
+    };
+    compare_from(2, &rows, &found, bound(1.0)).unwrap();
+    compare_from(2, &rows, &found, bound(1.005)).unwrap_err();
 }
 
 /// Every layer's sum, from the stored form, is the series. Each term errs by two products of sines; the weights of 16 terms sum to 1.5.
@@ -510,6 +651,9 @@ fn main() {
     trials.add("esm encodes and bounds", esm_encodes_and_bounds);
     trials.add("vsm encodes", vsm_encodes);
     trials.add("vsm and chebyshev bound", vsm_and_chebyshev_bound);
+    trials.add("evsm encodes and bounds", evsm_encodes_and_bounds);
+    trials.add("msm encodes and bounds", msm_encodes_and_bounds);
+    trials.add("lvsm encodes and bounds", lvsm_encodes_and_bounds);
     trials.add("csm sums its series", csm_sums_its_series);
     trials.add("raster depth is linearised", raster_depth_is_linearised);
     trials.add("raster depth is cleaned", raster_depth_is_cleaned);

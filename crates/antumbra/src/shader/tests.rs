@@ -28,6 +28,12 @@ fn variants() -> Vec<Box<dyn Technique>> {
         if names.contains(&"terms") {
             settings.extend(["terms=1", "terms=5"]);
         }
+        if names.contains(&"intervals") {
+            settings.extend(["intervals=2", "intervals=7"]);
+        }
+        if names.contains(&"moments") {
+            settings.push("moments=two");
+        }
         variants.extend(settings.iter().map(|s| parse(&format!("{name}.{s}")).unwrap()));
     }
     variants

@@ -326,6 +326,20 @@ pub fn floats(bytes: &[u8]) -> Vec<f32> {
     bytes.chunks_exact(4).map(|b| f32::from_ne_bytes([b[0], b[1], b[2], b[3]])).collect()
 }
 
+fn words(bytes: &[u8]) -> impl Iterator<Item = u16> {
+    bytes.chunks_exact(2).map(|b| u16::from_ne_bytes([b[0], b[1]]))
+}
+
+/// Value of a finite 16-bit float.
+fn from_half(bits: u16) -> f64 {
+    let (exponent, fraction) = (i32::from(bits >> 10 & 31), f64::from(bits & 1023) / 1024.0);
+    let size = match exponent {
+        0 => fraction * 2f64.powi(-14),
+        _ => (1.0 + fraction) * 2f64.powi(exponent - 15),
+    };
+    if bits >> 15 == 1 { -size } else { size }
+}
+
 /// Texels of one layer and level of a map, up to four channels, in f64.
 pub fn texels(gpu: &Gpu, texture: &wgpu::Texture, layer: u32, mip: u32) -> Vec<[f64; 4]> {
     let bytes = gpu.read_texture(texture, layer, mip);
@@ -340,6 +354,11 @@ pub fn texels(gpu: &Gpu, texture: &wgpu::Texture, layer: u32, mip: u32) -> Vec<[
         wgpu::TextureFormat::Rgba8Unorm => {
             pack(&bytes.iter().map(|b| f64::from(*b) / 255.0).collect::<Vec<f64>>(), 4)
         }
+        wgpu::TextureFormat::Rgba16Unorm => {
+            pack(&words(&bytes).map(|w| f64::from(w) / 65535.0).collect::<Vec<f64>>(), 4)
+        }
+        wgpu::TextureFormat::Rg16Float => pack(&words(&bytes).map(from_half).collect::<Vec<f64>>(), 2),
+        wgpu::TextureFormat::Rgba16Float => pack(&words(&bytes).map(from_half).collect::<Vec<f64>>(), 4),
         wgpu::TextureFormat::R32Float => pack(&wide(), 1),
         wgpu::TextureFormat::Rg32Float => pack(&wide(), 2),
         wgpu::TextureFormat::Rgba32Float => pack(&wide(), 4),

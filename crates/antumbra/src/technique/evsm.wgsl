@@ -1,0 +1,43 @@
+//! needs chebyshev lookup
+
+/// Warps that are kept: 2, or the positive one alone.
+const evsm_warps: u32 = 2;
+
+/// e^(c₊ z') and −e^(−c₋ z') with z' = 2 · linear depth − 1: both rise with depth.
+fn evsm_warp(depth: f32, positive: f32, negative: f32) -> vec2f {
+    let z = 2.0 * depth - 1.0;
+    return vec2f(exp(positive * z), -exp(-negative * z));
+}
+
+/// Both warps of linear depth, each with its square [Lauritzen & McCool 2008].
+fn evsm_encode(depths: mat3x3f, layer: u32, positive: f32, negative: f32, least_variance: f32, rounding: f32, denormal: f32, reduction: f32) -> vec4f {
+    let w = evsm_warp(depths[1][1], positive, negative);
+    return vec4f(w.x, w.x * w.x, w.y, w.y * w.y);
+}
+
+/// Upper bound of the lit share from one warp's filtered moments, at a warped depth.
+/// `least_variance`, of linear depth, becomes one of warped depth by the square of the warp's slope
+/// 2 · c · |w|, taken where the warp is flatter: at the mean or at the receiver. `rounding` and
+/// `denormal` are what storage leaves of it, relatively and absolutely.
+fn evsm_one(warped: f32, moments: vec2f, c: f32, least_variance: f32, rounding: f32, denormal: f32) -> f32 {
+    let w = min(abs(warped), abs(moments.x));
+    let least = w * w * max(4.0 * c * c * least_variance, rounding);
+    return chebyshev_bound(warped, moments, least);
+}
+
+/// Upper bound of the lit share, in [0,1], of filtered moments at a linear depth: the lesser of the
+/// bounds of both warps.
+fn evsm_bound(depth: f32, moments: vec4f, positive: f32, negative: f32, least_variance: f32, rounding: f32, denormal: f32, reduction: f32) -> f32 {
+    let w = evsm_warp(depth, positive, negative);
+    var bound = evsm_one(w.x, moments.xy, positive, least_variance, rounding, denormal);
+    if evsm_warps == 2u {
+        bound = min(bound, evsm_one(w.y, moments.zw, negative, least_variance, rounding, denormal));
+    }
+    return chebyshev_reduce(bound, reduction);
+}
+
+/// One filtered lookup.
+fn evsm_visibility(map: texture_2d_array<f32>, map_sampler: sampler, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f, positive: f32, negative: f32, least_variance: f32, rounding: f32, denormal: f32, reduction: f32) -> f32 {
+    let moments = lookup_filtered(map, map_sampler, uv, view, ddx, ddy);
+    return evsm_bound(depth, moments, positive, negative, least_variance, rounding, denormal, reduction);
+}
