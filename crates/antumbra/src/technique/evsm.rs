@@ -72,7 +72,8 @@ impl Format {
 pub struct Evsm {
     /// Exponent c₊ per half depth range, up to [`Format::limit`]; 0 for 40, or 5.5 with 16 bits.
     pub positive: f32,
-    /// Exponent c₋ per half depth range, likewise.
+    /// Exponent c₋ per half depth range, likewise; 0 for 5. Steeper ones darken lit slopes: the mean of
+    /// a concave warp over a slope is below the warp of its middle.
     pub negative: f32,
     /// Moments of one warp or of both.
     pub moments: Moments,
@@ -105,10 +106,11 @@ impl Evsm {
     #[must_use]
     pub fn exponents(&self) -> [f32; 2] {
         let usual = match self.format {
-            Format::Float32 => 40.0,
-            Format::Float16 => 5.5,
+            Format::Float32 => [40.0, 5.0],
+            Format::Float16 => [5.5, 5.0],
         };
-        [self.positive, self.negative].map(|c| if c > 0.0 { c } else { usual })
+        let or = |c: f32, usual| if c > 0.0 { c } else { usual };
+        [or(self.positive, usual[0]), or(self.negative, usual[1])]
     }
 
     /// Relative and absolute error that storage leaves in a variance: that of the stored square and
@@ -154,7 +156,7 @@ impl Technique for Evsm {
                 "negative",
                 "1/half depth range",
                 Field::Number(&mut self.negative, 0.0..=limit),
-                "exponent of −e^(−c z'), likewise; only with moments=four",
+                "exponent of −e^(−c z'); 0 is 5, more darkens steep slopes; only with moments=four",
             ),
             Parameter::new("moments", "", Field::Choice(&mut self.moments), "two per warp: the positive one, or both"),
             Parameter::new(

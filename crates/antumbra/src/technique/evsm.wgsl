@@ -21,7 +21,7 @@ fn evsm_encode(depths: mat3x3f, layer: u32, positive: f32, negative: f32, least_
 /// `denormal` are what storage leaves of it, relatively and absolutely.
 fn evsm_one(warped: f32, moments: vec2f, c: f32, least_variance: f32, rounding: f32, denormal: f32) -> f32 {
     let w = min(abs(warped), abs(moments.x));
-    let least = w * w * max(4.0 * c * c * least_variance, rounding);
+    let least = w * w * max(4.0 * c * c * least_variance, rounding) + denormal;
     return chebyshev_bound(warped, moments, least);
 }
 
