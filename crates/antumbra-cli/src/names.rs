@@ -3,12 +3,26 @@
 /// The known name that resembles a wrong one most, if any does.
 pub(crate) fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     known
-        .map(|k| {
-            // The second also knows swapped letters in short names.
-            let likeness = strsim::jaro_winkler(name, k).max(strsim::normalized_damerau_levenshtein(name, k));
-            (likeness, k)
-        })
-        .filter(|(likeness, _)| *likeness > 0.6)
-        .max_by(|a, b| a.0.total_cmp(&b.0))
-        .map(|(_, k)| k)
+        // Wrong letters, with swapped ones as one, decide; of equals the one that begins alike.
+        .map(|k| (strsim::normalized_damerau_levenshtein(name, k), strsim::jaro_winkler(name, k), k))
+        .filter(|(letters, beginning, _)| letters.max(*beginning) > 0.6)
+        .max_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)))
+        .map(|(.., k)| k)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn slips_are_recognised_and_strangers_are_not() {
+        let known = ["hard", "pcf", "vsm", "csm", "esm", "evsm", "msm", "lvsm", "kernel", "fence"];
+        let guess = |name| nearest(name, known.into_iter());
+        for (slip, meant) in
+            [("vms", "vsm"), ("k", "kernel"), ("fense", "fence"), ("pfc", "pcf"), ("evms", "evsm")]
+        {
+            assert_eq!(guess(slip), Some(meant));
+        }
+        assert_eq!(guess("zzz"), None);
+    }
 }
