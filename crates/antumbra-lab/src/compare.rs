@@ -10,20 +10,22 @@ use crate::{
     stage::Stage,
     timing::{self, Entrant},
 };
-use antumbra::{Bounds, Cascades, Options, Pipelines, ShadowMap, Size, Technique, View, technique};
+use antumbra::{Bounds, Cascades, ShadowMap, Technique, View, technique};
 use antumbra_scene::{Camera, Geometry, Light};
-use antumbra_truth::{MapPlane, Visibility};
+use antumbra_truth::MapPlane;
 use anyhow::{Context, Result, bail};
 use std::{
     collections::{BTreeMap, BTreeSet},
     time::Instant,
 };
 
+mod contestant;
 mod facts;
 mod truths;
 
+pub use contestant::{Contestant, enter};
 pub use facts::adapter_facts;
-use truths::{Truths, plane};
+use truths::{Truth, Truths};
 
 /// What to compare.
 #[derive(Debug, Clone)]
@@ -160,12 +162,6 @@ pub fn map_plane(view: &View) -> MapPlane {
     MapPlane { right_per_texel: axis(0) * texel, down_per_texel: -axis(1) * texel }
 }
 
-/// A technique with all that drawing it takes.
-struct Contestant {
-    shadows: ShadowMap,
-    lookup: Lookup,
-}
-
 /// Renders, traces, scores and times.
 ///
 /// # Errors
@@ -175,24 +171,13 @@ pub fn compare(gpu: &Gpu, request: &Request, progress: &dyn Progress) -> Result<
     progress.step("upload");
     let mut stage = Stage::new(gpu, &request.geometry, &request.camera, &request.light, request.resolution)?;
     let lighting = Lighting::new(gpu, &stage);
-    let pipelines = Pipelines::new(&gpu.device);
-    let mut contestants = Vec::new();
-    for technique in &request.techniques {
-        let options = Options::from(Size::square(request.map_size)).pipelines(&pipelines);
-        let shadows = ShadowMap::new(&gpu.device, technique.as_ref(), options)
-            .with_context(|| technique::spec(technique.as_ref()))?;
-        let lookup = Lookup::new(gpu, &stage, &shadows);
-        gpu.check().with_context(|| technique::spec(technique.as_ref()))?;
-        contestants.push(Contestant { shadows, lookup });
-    }
-    let maps: Vec<&ShadowMap> = contestants.iter().map(|c| &c.shadows).collect();
-    let view = view(&stage, &request.geometry, &request.light, &maps)?;
-    stage.set_views(gpu, &[view]);
-    for contestant in &mut contestants {
-        contestant.shadows.prepare(&gpu.queue, &[view])?;
-    }
+    let (geometry, light) = (&request.geometry, &request.light);
+    let (contestants, view) = enter(gpu, &mut stage, geometry, light, &request.techniques, request.map_size)?;
     let mut images = BTreeMap::new();
     let truths = truths::trace(gpu, request, &stage, &view, progress, &mut images)?;
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    stage.encode_surfaces(&mut encoder, None);
+    gpu.finish(encoder)?;
     let mut rendered = Vec::new();
     for (i, contestant) in contestants.iter().enumerate() {
         progress.step(&format!("render {}", technique::spec(contestant.shadows.technique())));
@@ -232,6 +217,7 @@ struct Rendered {
     images: TechniqueImages,
 }
 
+/// Draws one technique on the surfaces that the stage already holds, and scores it.
 fn render(
     gpu: &Gpu,
     stage: &Stage,
@@ -243,7 +229,6 @@ fn render(
     let shadows = &contestant.shadows;
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     shadows.encode(&mut encoder, |view, pass| stage.draw_casters(view, pass));
-    stage.encode_surfaces(&mut encoder, None);
     lighting.encode_lookup(&mut encoder, stage, &contestant.lookup, Some(shadows), None);
     lighting.encode_picture(&mut encoder, stage);
     gpu.finish(encoder)?;
@@ -251,7 +236,7 @@ fn render(
     let picture = lighting.read_picture(gpu)?;
     let spec = technique::spec(shadows.technique());
     let score =
-        |truth: &Visibility, mask: &[bool]| metrics::score(&test, &plane(truth)?, mask).context(spec.clone());
+        |truth: &Truth, mask: &[bool]| metrics::score(&test, &truth.plane, mask).context(spec.clone());
     let scores = Scores {
         hard: score(&truths.hard, &truths.hard.shadowable)?,
         light_space: score(&truths.light_space, &truths.light_space.shadowable)?,
@@ -267,8 +252,8 @@ fn render(
         images.insert(file.clone(), bytes);
         file
     };
-    let error = |truth: &Visibility| -> Result<Vec<u8>> {
-        Ok(error_heat_map(&test, &plane(truth)?, &truth.shadowable)?.to_png()?)
+    let error = |truth: &Truth| -> Result<Vec<u8>> {
+        Ok(error_heat_map(&test, &truth.plane, &truth.shadowable)?.to_png()?)
     };
     let images = TechniqueImages {
         picture: save("picture.png", picture.to_png()?),
@@ -291,7 +276,7 @@ fn time(
 ) -> Result<Vec<TimeResult>> {
     let unshadowed = Lookup::unshadowed(gpu, stage);
     let mut entrants = vec![Entrant { shadows: None, lookup: &unshadowed }];
-    entrants.extend(contestants.iter().map(|c| Entrant { shadows: Some(&c.shadows), lookup: &c.lookup }));
+    entrants.extend(contestants.iter().map(Contestant::entrant));
     let mut times = timing::race(gpu, stage, lighting, &entrants, request.rounds, &|s| progress.share(s))?;
     let none = times.remove(0);
     let hard = contestants.iter().position(|c| c.shadows.technique().page().name == "hard");

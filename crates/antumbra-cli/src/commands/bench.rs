@@ -2,9 +2,9 @@
 
 use super::table;
 use crate::{arguments::Bench, progress::Bar, scene};
-use antumbra::{Options, Pipelines, ShadowMap, Size, technique};
+use antumbra::technique;
 use antumbra_lab::{
-    compare::{self, Progress},
+    compare::{self, Contestant, Progress},
     gpu::Gpu,
     lighting::{Lighting, Lookup},
     stage::Stage,
@@ -27,21 +27,12 @@ pub(crate) fn run(arguments: &Bench) -> Result<()> {
     let gpu = Gpu::new()?;
     let mut stage = Stage::new(&gpu, &setting.geometry, &setting.camera, &setting.light, setting.resolution)?;
     let lighting = Lighting::new(&gpu, &stage);
-    let pipelines = Pipelines::new(&gpu.device);
-    let mut shadows = Vec::new();
-    for technique in &techniques {
-        let options = Options::from(Size::square(arguments.scene.size)).pipelines(&pipelines);
-        shadows.push(ShadowMap::new(&gpu.device, technique.as_ref(), options)?);
-    }
-    let view = compare::view(&stage, &setting.geometry, &setting.light, &shadows.iter().collect::<Vec<_>>())?;
-    stage.set_views(&gpu, &[view]);
-    for map in &mut shadows {
-        map.prepare(&gpu.queue, &[view])?;
-    }
+    let (geometry, light) = (&setting.geometry, &setting.light);
+    let (contestants, _) =
+        compare::enter(&gpu, &mut stage, geometry, light, &techniques, arguments.scene.size)?;
     let unshadowed = Lookup::unshadowed(&gpu, &stage);
-    let lookups: Vec<Lookup> = shadows.iter().map(|map| Lookup::new(&gpu, &stage, map)).collect();
     let mut entrants = vec![Entrant { shadows: None, lookup: &unshadowed }];
-    entrants.extend(shadows.iter().zip(&lookups).map(|(map, lookup)| Entrant { shadows: Some(map), lookup }));
+    entrants.extend(contestants.iter().map(Contestant::entrant));
     let bar = Bar::new();
     bar.step("time");
     let times = timing::race(&gpu, &stage, &lighting, &entrants, arguments.rounds, &|s| bar.share(s))?;

@@ -4,14 +4,7 @@ use crate::{
     arguments::{Render, Show},
     scene,
 };
-use antumbra::{Options, ShadowMap, Size};
-use antumbra_lab::{
-    compare, files,
-    gpu::Gpu,
-    lighting::{Lighting, Lookup},
-    plane::Plane,
-    stage::Stage,
-};
+use antumbra_lab::{compare, files, gpu::Gpu, lighting::Lighting, plane::Plane, stage::Stage};
 use antumbra_truth::{CameraRays, Tracer};
 use anyhow::{Context, Result, bail};
 use std::io::{self, Write};
@@ -36,24 +29,26 @@ pub(crate) fn run(arguments: &Render) -> Result<()> {
     let gpu = Gpu::new()?;
     let mut stage = Stage::new(&gpu, &setting.geometry, &setting.camera, &setting.light, setting.resolution)?;
     let lighting = Lighting::new(&gpu, &stage);
+    let contestants = match truth {
+        true => Vec::new(),
+        false => {
+            let (geometry, light) = (&setting.geometry, &setting.light);
+            compare::enter(&gpu, &mut stage, geometry, light, &techniques, arguments.scene.size)?.0
+        }
+    };
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     stage.encode_surfaces(&mut encoder, None);
-    match techniques.first() {
+    match contestants.first() {
         None => {
             let [width, height] = setting.resolution;
             let rays = CameraRays::new(&setting.camera, width, height)?;
             let hard = Tracer::new(&setting.geometry)?.hard(&rays, &setting.light);
             lighting.write_visibility(&gpu, &Plane::new(width, height, hard.values)?);
         }
-        Some(technique) => {
-            let size = Options::from(Size::square(arguments.scene.size));
-            let mut shadows = ShadowMap::new(&gpu.device, technique.as_ref(), size)?;
-            let view = compare::view(&stage, &setting.geometry, &setting.light, &[&shadows])?;
-            stage.set_views(&gpu, &[view]);
-            shadows.prepare(&gpu.queue, &[view])?;
-            let lookup = Lookup::new(&gpu, &stage, &shadows);
+        Some(contestant) => {
+            let shadows = &contestant.shadows;
             shadows.encode(&mut encoder, |view, pass| stage.draw_casters(view, pass));
-            lighting.encode_lookup(&mut encoder, &stage, &lookup, Some(&shadows), None);
+            lighting.encode_lookup(&mut encoder, &stage, &contestant.lookup, Some(shadows), None);
         }
     }
     lighting.encode_picture(&mut encoder, &stage);

@@ -17,16 +17,25 @@ use std::{collections::BTreeMap, time::Instant};
 /// Truths and masks.
 #[derive(Debug)]
 pub(super) struct Truths {
-    pub(super) hard: Visibility,
-    pub(super) light_space: Visibility,
-    pub(super) screen_space: Visibility,
+    pub(super) hard: Truth,
+    pub(super) light_space: Truth,
+    pub(super) screen_space: Truth,
     pub(super) regions: Vec<Region>,
     pub(super) facts: TruthFacts,
 }
 
-/// A truth as a plane.
-pub(super) fn plane(visibility: &Visibility) -> Result<Plane> {
-    Ok(Plane::new(visibility.width, visibility.height, visibility.values.clone())?)
+/// One truth as scores take it.
+#[derive(Debug)]
+pub(super) struct Truth {
+    pub(super) plane: Plane,
+    pub(super) shadowable: Vec<bool>,
+}
+
+impl Truth {
+    fn new(visibility: Visibility) -> Result<Self> {
+        let Visibility { width, height, values, shadowable } = visibility;
+        Ok(Self { plane: Plane::new(width, height, values)?, shadowable })
+    }
 }
 
 /// Traces everything; adds the truths' pictures to `images`.
@@ -66,9 +75,11 @@ pub(super) fn trace(
     progress.step("truth: screen-space ideal");
     let screen_space = tracer.supersampled(&rays, light, request.grid, &|s| progress.share(s));
     let seconds_screen_space = clock.lap();
-    let mut save = |name: &str, visibility: &Visibility| -> Result<String> {
+    let [hard, light_space, screen_space] =
+        [Truth::new(hard)?, Truth::new(light_space)?, Truth::new(screen_space)?];
+    let mut save = |name: &str, truth: &Truth| -> Result<String> {
         let file = format!("truth-{name}.png");
-        images.insert(file.clone(), plane(visibility)?.to_gray_png()?);
+        images.insert(file.clone(), truth.plane.to_gray_png()?);
         Ok(file)
     };
     let facts = TruthFacts {
@@ -79,7 +90,7 @@ pub(super) fn trace(
         coverage_agreement: coverage.agreement(),
         coverage_explained: coverage_explained(&coverage, &hits),
         shadowable_pixels: hard.shadowable.iter().filter(|s| **s).count() as u64,
-        no_shadow: metrics::no_shadow_baseline(&plane(&hard)?, &hard.shadowable)?,
+        no_shadow: metrics::no_shadow_baseline(&hard.plane, &hard.shadowable)?,
         images: TruthImages {
             hard: save("hard", &hard)?,
             light_space: save("light-space", &light_space)?,

@@ -14,7 +14,3 @@ struct Material {
     roughness: f32,
     cutoff: f32,
 }
-
-fn frame_ray(frame_ray: vec3f, right: vec3f, down: vec3f, pixel: vec2f) -> vec3f {
-    return frame_ray + right * pixel.x + down * pixel.y;
-}

@@ -1,0 +1,56 @@
+//! Techniques made ready to be drawn on one stage.
+
+use super::view;
+use crate::{gpu::Gpu, lighting::Lookup, stage::Stage, timing::Entrant};
+use antumbra::{Options, Pipelines, ShadowMap, Size, Technique, View, technique};
+use antumbra_scene::{Geometry, Light};
+use anyhow::{Context, Result};
+
+/// A technique with all that drawing it takes.
+#[derive(Debug)]
+pub struct Contestant {
+    /// Its shadow map, prepared.
+    pub shadows: ShadowMap,
+    /// Its lookup pass.
+    pub lookup: Lookup,
+}
+
+impl Contestant {
+    /// What a race takes.
+    #[must_use]
+    pub fn entrant(&self) -> Entrant<'_> {
+        Entrant { shadows: Some(&self.shadows), lookup: &self.lookup }
+    }
+}
+
+/// Makes a shadow map of `map_size` × `map_size` texels for every technique, sharing pipelines, and
+/// gives all of them and the stage the light's only view.
+///
+/// # Errors
+/// Settings that the device cannot do (naming the technique), a light or camera without a view.
+pub fn enter(
+    gpu: &Gpu,
+    stage: &mut Stage,
+    geometry: &Geometry,
+    light: &Light,
+    techniques: &[Box<dyn Technique>],
+    map_size: u32,
+) -> Result<(Vec<Contestant>, View)> {
+    let pipelines = Pipelines::new(&gpu.device);
+    let mut contestants = Vec::with_capacity(techniques.len());
+    for technique in techniques {
+        let options = Options::from(Size::square(map_size)).pipelines(&pipelines);
+        let shadows = ShadowMap::new(&gpu.device, technique.as_ref(), options)
+            .with_context(|| technique::spec(technique.as_ref()))?;
+        let lookup = Lookup::new(gpu, stage, &shadows);
+        gpu.check().with_context(|| technique::spec(technique.as_ref()))?;
+        contestants.push(Contestant { shadows, lookup });
+    }
+    let maps: Vec<&ShadowMap> = contestants.iter().map(|c| &c.shadows).collect();
+    let view = view(stage, geometry, light, &maps)?;
+    stage.set_views(gpu, &[view]);
+    for contestant in &mut contestants {
+        contestant.shadows.prepare(&gpu.queue, &[view])?;
+    }
+    Ok((contestants, view))
+}
