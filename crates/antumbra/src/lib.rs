@@ -103,12 +103,13 @@ mod map;
 mod parameter;
 mod pass;
 mod shader;
+mod table;
 pub mod technique;
 
 pub use capabilities::Capabilities;
 pub use cascade::{Cascades, Stage};
 pub use error::{LightError, SettingError, Unsupported};
-pub use filter::{Filter, Sampling};
+pub use filter::{Filter, Sampling, Values};
 pub use kernel::{Kernel, Weights};
 pub use light::{Bounds, Fit, Light, Size, View, visible_hull};
 pub use map::{
@@ -116,6 +117,7 @@ pub use map::{
 };
 pub use parameter::{Choice, Field, Parameter};
 pub use shader::{CASTER_WGSL, ShaderText};
+pub use table::Table;
 pub use technique::{
     Technique, csm::Csm, esm::Esm, evsm::Evsm, hard::Hard, lvsm::Lvsm, msm::Msm, pcf::Pcf, vsm::Vsm,
 };
