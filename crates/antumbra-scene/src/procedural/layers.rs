@@ -1,5 +1,5 @@
-//! Three thin casters above one another [Annen et al. 2008, "Exponential shadow maps", figure 1;
-//! Lauritzen and McCool 2008, "Layered variance shadow maps", figure 1]. Their shadows fall on the
+//! Three thin casters above one another [Lauritzen and McCool 2008, "Layered variance shadow maps",
+//! show what such scenes do to variance shadow maps]. Their shadows fall on the
 //! same patch of ground, which lies wholly in the dark under two and three of them. Wherever the
 //! edge of a higher one crosses the shadow of a lower one, a texel of the map holds several depths,
 //! and techniques that keep two moments draw that edge as a line of light.
@@ -17,7 +17,7 @@ pub(super) const LAYERS: Procedural = Procedural {
     name: "layers",
     description: "sun panels over a slatted roof over a round table, all shading the same ground",
     stresses: "light bleeding: full shadow under two and three casters at different depths",
-    source: "Lauritzen and McCool 2008, Layered variance shadow maps, figure 1",
+    source: "Lauritzen and McCool 2008, Layered variance shadow maps",
     triangles: 1_510,
     build,
 };

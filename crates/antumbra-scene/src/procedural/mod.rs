@@ -4,8 +4,10 @@
 
 mod backyard;
 mod blocks;
+mod brabec;
 mod contact;
 mod fence;
+mod growth;
 mod layers;
 mod model;
 mod plants;
@@ -16,6 +18,7 @@ mod shed;
 mod spheres;
 mod spot;
 mod tree;
+mod trees;
 
 use crate::Scene;
 
@@ -58,6 +61,8 @@ pub fn all() -> &'static [Procedural] {
         layers::LAYERS,
         blocks::BLOCKS,
         backyard::BACKYARD,
+        trees::TREES,
+        brabec::BRABEC,
     ]
 }
 
