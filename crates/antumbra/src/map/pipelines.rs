@@ -127,7 +127,7 @@ impl Pipelines {
         })
     }
 
-    /// Binding 0 is the source; 1 what converting or sampling it takes; 2 a storage target.
+    /// Binding 0 is the source; 1 the settings of converting; 2 a nearest sampler; 3 a storage target.
     fn layout(&self, step: &Step, formats: &[TextureFormat]) -> BindGroupLayout {
         use wgpu::{SamplerBindingType, TextureSampleType, TextureViewDimension as Dimension};
         let texture = |sample_type, view_dimension| BindingType::Texture {
@@ -142,17 +142,19 @@ impl Pipelines {
         };
         let sampler = BindingType::Sampler(SamplerBindingType::NonFiltering);
         let floats = TextureSampleType::Float { filterable: false };
-        let (source, second) = match (step.source.slot, step.work) {
-            (Slot::Casters, _) => (texture(TextureSampleType::Depth, Dimension::D2), Some(uniform)),
-            (_, Work::Draw) => (texture(floats, Dimension::D2Array), Some(sampler)),
-            (_, Work::Lanes(_)) => (texture(TextureSampleType::Uint, Dimension::D2Array), None),
+        let (source, uniform, sampler) = match (step.source.slot, step.work) {
+            (Slot::Casters, _) => {
+                (texture(TextureSampleType::Depth, Dimension::D2), Some(uniform), Some(sampler))
+            }
+            (_, Work::Draw) => (texture(floats, Dimension::D2Array), None, Some(sampler)),
+            (_, Work::Lanes(_)) => (texture(TextureSampleType::Uint, Dimension::D2Array), None, None),
         };
         let target = |format: &TextureFormat| BindingType::StorageTexture {
             access: wgpu::StorageTextureAccess::WriteOnly,
             format: *format,
             view_dimension: Dimension::D2,
         };
-        let third = matches!(step.work, Work::Lanes(_)).then(|| formats.first().map(target)).flatten();
+        let stored = matches!(step.work, Work::Lanes(_)).then(|| formats.first().map(target)).flatten();
         let visibility = match step.work {
             Work::Draw => wgpu::ShaderStages::FRAGMENT,
             Work::Lanes(_) => wgpu::ShaderStages::COMPUTE,
@@ -160,7 +162,7 @@ impl Pipelines {
         let entry = |(i, ty): (u32, Option<BindingType>)| {
             ty.map(|ty| wgpu::BindGroupLayoutEntry { binding: i, visibility, ty, count: None })
         };
-        let entries: Vec<_> = (0..).zip([Some(source), second, third]).filter_map(entry).collect();
+        let entries: Vec<_> = (0..).zip([Some(source), uniform, sampler, stored]).filter_map(entry).collect();
         self.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some(step.label),
             entries: &entries,
@@ -176,13 +178,14 @@ impl Pipelines {
         uniforms: wgpu::BindingResource<'_>,
     ) -> BindGroup {
         use wgpu::{BindGroupEntry, BindingResource};
-        let second = match (step.source.slot, step.work) {
-            (Slot::Casters, _) => Some(uniforms),
-            (_, Work::Draw) => Some(BindingResource::Sampler(&self.nearest)),
-            (_, Work::Lanes(_)) => None,
+        let sampler = Some(BindingResource::Sampler(&self.nearest));
+        let (uniforms, sampler) = match (step.source.slot, step.work) {
+            (Slot::Casters, _) => (Some(uniforms), sampler),
+            (_, Work::Draw) => (None, sampler),
+            (_, Work::Lanes(_)) => (None, None),
         };
-        let third = matches!(step.work, Work::Lanes(_)).then_some(BindingResource::TextureView(target));
-        let resources = [Some(BindingResource::TextureView(source)), second, third];
+        let stored = matches!(step.work, Work::Lanes(_)).then_some(BindingResource::TextureView(target));
+        let resources = [Some(BindingResource::TextureView(source)), uniforms, sampler, stored];
         let entries: Vec<_> = (0..)
             .zip(resources)
             .filter_map(|(binding, resource)| Some(BindGroupEntry { binding, resource: resource? }))

@@ -46,7 +46,7 @@ impl Source {
         let stores: String = layers(run)
             .map(|(i, layer)| format!("    targets.layer_{i} = convert_layer(source, {layer}u);\n"))
             .collect();
-        let body = format!("    let source = convert_source(vec2i(position.xy));\n{stores}");
+        let body = format!("    let source = convert_source(position.xy);\n{stores}");
         run.step("convert", self.fragment(run, &body), CASTERS, run.kept(0))
     }
 
@@ -55,7 +55,7 @@ impl Source {
         let mut body: String =
             layers(run).map(|(i, _)| format!("    var sum_{i} = combine_none();\n")).collect();
         for (offset, weight) in kernel.offsets() {
-            body += &format!("    source = convert_source(vec2i(position.xy + vec2f({offset:?}, 0.0)));\n");
+            body += &format!("    source = convert_source(position.xy + vec2f({offset:?}, 0.0));\n");
             for (i, layer) in layers(run) {
                 body += &format!(
                     "    sum_{i} = combine_add(sum_{i}, {weight:?}, convert_layer(source, {layer}u));\n"

@@ -33,11 +33,6 @@ const ENCODE_FUNCTIONS: [&str; 8] = [
     "lvsm_encode",
 ];
 
-/// WGSL allows sin and cos an absolute error of 2^−11 within ±π; software drivers are better.
-fn sine(gpu: &Gpu) -> f64 {
-    if gpu.info.device_type == wgpu::DeviceType::Cpu { 1e-6 } else { 4.9e-4 }
-}
-
 fn rows(seed: u64, make: impl Fn(&mut Random) -> Row) -> Vec<Row> {
     let mut random = Random::new(seed);
     (0..ROWS).map(|_| make(&mut random)).collect()

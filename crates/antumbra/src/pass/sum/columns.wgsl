@@ -1,6 +1,6 @@
 
 @group(0) @binding(0) var rows: texture_2d_array<u32>;
-@group(0) @binding(2) var sums: texture_storage_2d<rgba32uint, write>;
+@group(0) @binding(3) var sums: texture_storage_2d<rgba32uint, write>;
 
 @compute @workgroup_size(64) fn compute(@builtin(global_invocation_id) id: vec3u) {
     let size = vec2i(textureDimensions(rows));
