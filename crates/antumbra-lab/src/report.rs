@@ -21,6 +21,8 @@ mod table;
 mod text;
 mod viewer;
 
+pub(crate) use text::escape;
+
 const PAGE: &str = include_str!("report/page.html");
 const STYLE: &str = include_str!("report/style.css");
 const VIEWER_SCRIPT: &str = include_str!("report/viewer.js");

@@ -219,6 +219,12 @@ impl Technique for Csm {
             .sum();
         ((ringing + quantisation) * if matches!(self.lift, Lift::Scale | Lift::Both) { 2.0 } else { 1.0 }) as f32
     }
+    fn stored_zero(&self, _: usize) -> f32 {
+        0.5
+    }
+    fn lookups(&self) -> u32 {
+        self.layers()
+    }
     fn boxed(&self) -> Box<dyn Technique> {
         Box::new(*self)
     }
