@@ -8,7 +8,7 @@ use antumbra_lab::report::{self, ReportError};
 use antumbra_lab::results::{
     AdapterFacts, BoundsFacts, CameraFacts, Family, Lifetime, LightFacts, MemoryItem, MemoryResult, PassTime,
     Program, Results, ResultsError, SCHEMA, SceneFacts, Scores, Spread, TechniqueImages, TechniqueResult,
-    TimeMethod, TimeResult, TruthFacts, TruthImages,
+    TimeMethod, TimeResult, TruthFacts, TruthImages, Work,
 };
 use std::collections::BTreeMap;
 use std::fs;
@@ -79,6 +79,12 @@ fn technique(spec: &str, title: &str, family: Family, visibility: f32) -> Techni
             kept_bytes: 1 << 20,
             transient_bytes: 0,
         },
+        work: Some(Work {
+            bytes_per_texel: 4.0,
+            bytes_per_texel_with_mips: 4.0,
+            lookups: 1,
+            passes: vec!["convert".into()],
+        }),
         explain: vec!["chose depth32float".into()],
         images: TechniqueImages {
             picture: image("picture"),
@@ -218,6 +224,41 @@ fn hostile_strings_stay_text() {
 }
 
 #[test]
+fn techniques_stand_with_their_family() {
+    let mut mixed = results();
+    mixed.techniques.push(technique("pcf", "Percentage-closer filtering", Family::Comparison, 0.7));
+    let families: Vec<(Family, Vec<&str>)> = mixed
+        .families()
+        .into_iter()
+        .map(|(family, members)| (family, members.into_iter().map(|t| t.name.as_str()).collect()))
+        .collect();
+    assert_eq!(families, [(Family::Comparison, vec!["hard", "pcf"]), (Family::Basis, vec!["esm"])]);
+    let folder = Folder::new("families");
+    let out = write(&mixed, &folder.0.join("report")).unwrap();
+    let page = fs::read_to_string(out.join("index.html")).unwrap();
+    let table = page.split_once("table class=\"scores").unwrap().1.split_once("</table>").unwrap().0;
+    let place = |text: &str| table.find(text).unwrap();
+    assert_eq!(table.matches("<tr class=\"family\">").count(), 2);
+    assert!(place("<code>pcf</code>") < place(">Linear basis</th>"));
+    assert!(place(">Linear basis</th>") < place("<code>esm."));
+}
+
+#[test]
+fn results_from_before_work_was_told_are_read() {
+    let folder = Folder::new("older");
+    let out = write(&results(), &folder.0.join("report")).unwrap();
+    let mut json: serde_json::Value =
+        serde_json::from_slice(&fs::read(out.join("results.json")).unwrap()).unwrap();
+    json["techniques"][0].as_object_mut().unwrap().remove("work").unwrap();
+    let old = folder.0.join("old.json");
+    fs::write(&old, json.to_string()).unwrap();
+    let old = Results::read(&old).unwrap();
+    assert_eq!((old.techniques[0].work.as_ref(), old.techniques[1].work.is_some()), (None, true));
+    let rewritten = write(&old, &folder.0.join("report")).unwrap();
+    assert!(fs::read_to_string(rewritten.join("results.csv")).unwrap().contains(",,,,\r\n"));
+}
+
+#[test]
 fn csv_has_one_row_per_technique_and_quotes_commas() {
     let csv = results().csv();
     let lines: Vec<&str> = csv.lines().collect();
@@ -278,7 +319,7 @@ fn folders_of_others_are_refused_and_left_alone() {
     let foreign = folder.0.join("foreign");
     fs::create_dir(&foreign).unwrap();
     fs::write(foreign.join("results.json"), "{\"schema\":\"theirs/1\"}").unwrap();
-    assert!(refused(&foreign).contains("no results.json of this program"));
+    assert!(refused(&foreign).contains("no results.json or maps.json of this program"));
     let added = folder.0.join("added");
     write(&results(), &added).unwrap();
     fs::write(added.join("notes.txt"), "mine").unwrap();

@@ -26,22 +26,28 @@ pub(super) fn row_head(technique: &TechniqueResult) -> String {
     )
 }
 
-/// All techniques by all columns.
+/// Techniques by columns, family by family.
 pub(super) fn scores(results: &Results) -> String {
     let columns = column::all();
     let best: Vec<Option<f64>> = columns.iter().map(|column| best_of(results, column)).collect();
-    let rows: String = results
-        .techniques
-        .iter()
-        .map(|t| {
-            let cells: String =
-                columns.iter().zip(&best).map(|(column, best)| cell(column, t, *best)).collect();
-            format!("<tr>{}{cells}</tr>\n", row_head(t))
+    let row = |t: &TechniqueResult| {
+        let cells: String = columns.iter().zip(&best).map(|(column, best)| cell(column, t, *best)).collect();
+        format!("<tr>{}{cells}</tr>\n", row_head(t))
+    };
+    let bodies: String = results
+        .families()
+        .into_iter()
+        .map(|(of, members)| {
+            let rows: String = members.into_iter().map(row).collect();
+            let (name, across) = (family(of).0, columns.len());
+            format!(
+                "<tbody><tr class=\"family\"><th scope=\"rowgroup\">{name}</th><td colspan=\"{across}\"></td></tr>\n{rows}</tbody>"
+            )
         })
         .collect();
     format!(
         "<table class=\"scores sortable\"><caption class=\"unseen\">Scores, time and memory of every technique</caption>\n\
-         <thead>{}</thead>\n<tbody>{rows}</tbody>\n<tfoot>{}</tfoot></table>",
+         <thead>{}</thead>\n{bodies}\n<tfoot>{}</tfoot></table>",
         head(&columns),
         baseline(&columns, &results.truth.no_shadow)
     )

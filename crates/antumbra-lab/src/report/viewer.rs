@@ -97,19 +97,13 @@ fn option(view: &View<'_>, chosen: &str) -> String {
 
 /// All signed-error maps, family by family.
 pub(super) fn heat_maps(results: &Results) -> String {
-    let families = [Family::Comparison, Family::Basis, Family::Geometry];
-    let group = |of: Family| {
-        let members: String =
-            results.techniques.iter().filter(|t| t.family == of).map(|t| heat_map(results, t)).collect();
+    let group = |(of, members): (Family, Vec<&TechniqueResult>)| {
+        let members: String = members.into_iter().map(|t| heat_map(results, t)).collect();
         let (name, class) = family(of);
         let head = format!("<h3><span class=\"mark {class}\" aria-hidden=\"true\"></span>{name}</h3>");
-        if members.is_empty() {
-            String::new()
-        } else {
-            format!("{head}<div class=\"maps\">{members}</div>\n")
-        }
+        format!("{head}<div class=\"maps\">{members}</div>\n")
     };
-    families.into_iter().map(group).collect()
+    results.families().into_iter().map(group).collect()
 }
 
 fn heat_map(results: &Results, technique: &TechniqueResult) -> String {
