@@ -1,5 +1,6 @@
 //! What GPU tests share: one device, error scopes, a test runner that can say "ignored".
 
+pub mod broken;
 pub mod image;
 
 use std::sync::OnceLock;

@@ -12,7 +12,7 @@ use super::{Binding, Combine, Constant, Encode, Family, Map, Page, Technique, Un
 use crate::{
     capabilities::Capabilities,
     error::Unsupported,
-    filter::{Filter, Values},
+    filter::{Filter, Sampling, Values},
     parameter::{Field, Parameter, choice},
 };
 use std::f64::consts::PI;
@@ -220,10 +220,10 @@ impl Technique for Csm {
         ((ringing + quantisation) * if matches!(self.lift, Lift::Scale | Lift::Both) { 2.0 } else { 1.0 }) as f32
     }
     fn stored_zero(&self, _: usize) -> f32 {
-        0.5
+        if self.filter.sampling == Sampling::Summed { 0.0 } else { 0.5 }
     }
     fn lookups(&self) -> u32 {
-        self.layers()
+        self.layers() * self.filter.lookups(&self.values())
     }
     fn boxed(&self) -> Box<dyn Technique> {
         Box::new(*self)
