@@ -52,6 +52,7 @@ const COMPARE_EXAMPLES: &str = "Examples:
 const RENDER_EXAMPLES: &str = "Examples:
   antumbra render fence --technique esm.c=60 -o out.png
   antumbra render model.glb --technique pcf.kernel=7 --show visibility -o visibility.exr
+  antumbra render fence -t esm.classifier=zmax --show classes -o failed.png
   antumbra render model.glb --technique truth -o truth.png";
 
 const CURVE_EXAMPLES: &str = "Examples:
@@ -123,7 +124,7 @@ pub(crate) struct Render {
     #[command(flatten)]
     pub(crate) scene: SceneArguments,
     /// A technique with settings, or `truth` for ray-traced hard shadows
-    #[arg(long, default_value = "esm", value_name = "TECHNIQUE")]
+    #[arg(short, long, default_value = "esm", value_name = "TECHNIQUE")]
     pub(crate) technique: String,
     /// What to write
     #[arg(long, value_enum, default_value_t = Show::Picture)]
@@ -140,6 +141,8 @@ pub(crate) enum Show {
     Picture,
     /// Visibility, linear grey
     Visibility,
+    /// Visibility with the kinds of pixels that the technique tells apart in colour
+    Classes,
 }
 
 #[derive(Debug, Args)]

@@ -45,9 +45,9 @@ fn lists() {
     let techniques = json(&["techniques", "--json"]);
     let names: Vec<&str> = techniques.as_array().unwrap().iter().filter_map(|t| t["name"].as_str()).collect();
     assert_eq!(names, ["hard", "pcf", "vsm", "csm", "esm", "evsm", "msm", "lvsm"]);
-    let c = &techniques[4]["parameters"][0];
-    assert_eq!((c["name"].as_str(), c["default"].as_str()), (Some("c"), Some("80")));
-    assert!(c["allowed"].is_string() && c["meaning"].is_string());
+    let terms = &techniques[3]["parameters"][0];
+    assert_eq!((terms["name"].as_str(), terms["default"].as_str()), (Some("terms"), Some("16")));
+    assert!(terms["allowed"].is_string() && terms["meaning"].is_string());
     let scenes = json(&["scenes", "--json"]);
     assert_eq!(scenes[2]["name"], "contact");
     assert_eq!(scenes[2]["triangles"], 17);

@@ -4,6 +4,7 @@
 
 mod common;
 
+use antumbra_lab::results::Results;
 use antumbra_testing::Trials;
 use common::{Folder, png_size};
 use serde_json::Value;
@@ -13,6 +14,7 @@ fn main() {
     let mut trials = Trials::default();
     trials.add("curves", |_| curves());
     trials.add("maps", |_| maps());
+    trials.add("classes", |_| classes());
     trials.add_plain("refusals", refusals);
     trials.run();
 }
@@ -68,6 +70,30 @@ fn maps() {
     assert!(!folder.0.join("deep").exists());
 }
 
+fn classes() {
+    let folder = Folder::new();
+    // From overhead, so that the ground is at one depth and never fails by itself.
+    let small = ["layers", "--light", "0,-1,0", "--resolution", "160x120", "--size", "256"];
+    let spec = "esm.classifier=threshold,kernel=7";
+    let picture = ["render", "-t", spec, "--show", "classes", "-o", "red.png"];
+    let told = folder.run(&[&picture[..], &small[..]].concat()).good();
+    let share = told.split_once("assumption violated: ").unwrap().1.split_once(" %").unwrap().0;
+    let share: f64 = share.parse().unwrap();
+    assert!((0.5..20.0).contains(&share), "{told}");
+    let [width, height] = png_size(&folder.0.join("red.png"));
+    assert_eq!([width, height], [160, 120]);
+    let quick = ["compare", "--techniques", spec, "hard", "--rounds", "1", "--grid", "1", "-o", "report"];
+    let table = folder.run(&[&quick[..], &small[..]].concat()).good();
+    assert!(table.contains(&format!("{spec}: assumption violated in {share:.2} %")), "{table}");
+    let results = Results::read(&folder.0.join("report/results.json")).unwrap();
+    let [esm, hard] = [0, 1].map(|i| &results.techniques[i]);
+    assert!((100.0 * esm.classes[0].share - share).abs() < 0.01 && hard.classes.is_empty());
+    assert!(hard.images.classes.is_none());
+    assert_eq!(png_size(&folder.0.join("report").join(esm.images.classes.as_ref().unwrap())), [160, 120]);
+    let page = fs::read_to_string(folder.0.join("report/index.html")).unwrap();
+    assert!(page.contains("Kinds of pixels") && page.contains("assumption violated"));
+}
+
 fn refusals() {
     let folder = Folder::new();
     let cases: &[(&[&str], &[&str])] = &[
@@ -84,6 +110,9 @@ fn refusals() {
         (&["maps", "contact", "-t", "all"], &["--technique all", "one technique"]),
         (&["maps", "contact", "-t", "cms"], &["'cms'", "did you mean csm?"]),
         (&["maps", "garden"], &["'garden'", "contact"]),
+        (&["render", "contact", "-t", "hard", "--show", "classes"], &["--show classes", "hard"]),
+        (&["render", "contact", "-t", "truth", "--show", "classes"], &["--show classes", "truth"]),
+        (&["render", "contact", "--show", "classes", "-o", "x.exr"], &["EXR", ".png"]),
     ];
     for (arguments, words) in cases {
         folder.run(arguments).refusal(words);

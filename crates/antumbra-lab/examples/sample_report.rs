@@ -238,6 +238,7 @@ fn technique(s: &Sample, truth: &Truth, images: &mut Images) -> Result<Technique
         visibility: add("visibility", visibility.to_gray_png()?),
         error_hard: add("error-hard", heat(&truth.hard)?.to_png()?),
         error_light_space: add("error-light-space", heat(&truth.light_space)?.to_png()?),
+        classes: None,
     };
     let against = |plane: &Plane| score(&visibility, plane, &truth.shadowable);
     Ok(TechniqueResult {
@@ -253,6 +254,7 @@ fn technique(s: &Sample, truth: &Truth, images: &mut Images) -> Result<Technique
             screen_space: against(&truth.screen_space)?,
         },
         regions: BTreeMap::from([("contact".into(), contact(&visibility, truth)?)]),
+        classes: Vec::new(),
         time: time(s.passes),
         memory: memory(s.textures),
         work: Some(work(s)),

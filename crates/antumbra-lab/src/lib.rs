@@ -9,6 +9,7 @@
 
 mod axis;
 pub mod chart;
+pub mod classes;
 pub mod compare;
 pub mod curve;
 pub mod files;

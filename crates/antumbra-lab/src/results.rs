@@ -5,6 +5,7 @@
 //! Numbers are finite: a quantity that does not exist for an image (the
 //! leak of a picture without deep shadow, the PSNR of two equal images) is `null`.
 
+use crate::classes::ClassShare;
 use crate::files::{self, FileError};
 use crate::metrics::Score;
 use serde::{Deserialize, Serialize};
@@ -188,6 +189,9 @@ pub struct TechniqueResult {
     pub scores: Scores,
     /// Error against the light-space ideal in named parts of the picture, e.g. "contact".
     pub regions: BTreeMap<String, Score>,
+    /// Kinds of pixels that the technique tells apart. Added later.
+    #[serde(default)]
+    pub classes: Vec<ClassShare>,
     /// Cost in time.
     pub time: TimeResult,
     /// Cost in memory.
@@ -355,6 +359,9 @@ pub struct TechniqueImages {
     pub error_hard: String,
     /// Signed error against the light-space ideal.
     pub error_light_space: String,
+    /// Visibility with the pixels of each class in its colour, if the technique has any. Added later.
+    #[serde(default)]
+    pub classes: Option<String>,
 }
 
 /// Why results could not be read or written.

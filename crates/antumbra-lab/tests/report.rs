@@ -1,6 +1,7 @@
 //! The report as a reader finds it: complete, self-contained, safe, and never half written.
 #![allow(clippy::unwrap_used, reason = "helpers of tests fail like tests")]
 
+use antumbra_lab::classes::ClassShare;
 use antumbra_lab::files::{FileError, write_atomically};
 use antumbra_lab::metrics::score;
 use antumbra_lab::plane::{Plane, Rgba8Image};
@@ -51,6 +52,7 @@ fn technique(spec: &str, title: &str, family: Family, visibility: f32) -> Techni
         settings: BTreeMap::from([("c".into(), 80.into()), ("filter".into(), "gauss".into())]),
         scores: Scores { hard: score, light_space: score, screen_space: score },
         regions: BTreeMap::from([("contact".into(), score)]),
+        classes: Vec::new(),
         time: TimeResult {
             passes: vec![PassTime {
                 name: "lookup".into(),
@@ -91,6 +93,7 @@ fn technique(spec: &str, title: &str, family: Family, visibility: f32) -> Techni
             visibility: image("visibility"),
             error_hard: image("error-hard"),
             error_light_space: image("error-light-space"),
+            classes: None,
         },
     }
 }
@@ -213,6 +216,7 @@ fn hostile_strings_stay_text() {
     hostile.techniques[0].settings.insert(attack.into(), attack.into());
     hostile.techniques[0].regions = BTreeMap::from([(attack.into(), hostile.techniques[0].scores.hard)]);
     hostile.techniques[0].memory.items[0].format = attack.into();
+    hostile.techniques[0].classes = vec![ClassShare { name: attack.into(), colour: [1; 3], share: 0.5 }];
     hostile.techniques[0].time.passes[0].name = attack.into();
     hostile.truth.coverage_explained.insert(attack.into(), 3);
     hostile.command.push(attack.into());
@@ -244,12 +248,15 @@ fn techniques_stand_with_their_family() {
 }
 
 #[test]
-fn results_from_before_work_was_told_are_read() {
+fn older_results_are_read() {
     let folder = Folder::new("older");
     let out = write(&results(), &folder.0.join("report")).unwrap();
     let mut json: serde_json::Value =
         serde_json::from_slice(&fs::read(out.join("results.json")).unwrap()).unwrap();
-    json["techniques"][0].as_object_mut().unwrap().remove("work").unwrap();
+    for added in ["work", "classes"] {
+        json["techniques"][0].as_object_mut().unwrap().remove(added).unwrap();
+    }
+    json["techniques"][0]["images"].as_object_mut().unwrap().remove("classes").unwrap();
     let old = folder.0.join("old.json");
     fs::write(&old, json.to_string()).unwrap();
     let old = Results::read(&old).unwrap();

@@ -129,6 +129,17 @@ fn print(out: &mut impl Write, results: &Results) -> Result<()> {
         ],
         &rows,
     )?;
+    for technique in &results.techniques {
+        for class in &technique.classes {
+            writeln!(
+                out,
+                "{}: {} in {:.2} % of the pixels that see geometry",
+                technique.spec,
+                class.name,
+                100.0 * class.share
+            )?;
+        }
+    }
     writeln!(
         out,
         "no shadow at all matches {:.2} % of shadowable pixels",

@@ -17,7 +17,7 @@ pub(super) fn technique(shadows: &ShadowMap, rendered: Rendered, time: TimeResul
     let page = shadows.technique().page();
     let mut technique = shadows.technique().boxed();
     let settings = technique.parameters().iter().map(|p| (p.name.to_string(), value(&p.value()))).collect();
-    let Rendered { scores, regions, images } = rendered;
+    let Rendered { scores, classes, regions, images } = rendered;
     TechniqueResult {
         name: page.name.into(),
         spec: technique::spec(shadows.technique()),
@@ -31,6 +31,7 @@ pub(super) fn technique(shadows: &ShadowMap, rendered: Rendered, time: TimeResul
         settings,
         scores,
         regions,
+        classes,
         time,
         memory: memory(&shadows.memory()),
         work: Some(work(shadows)),

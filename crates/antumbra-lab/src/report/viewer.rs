@@ -33,7 +33,7 @@ fn truths(results: &Results) -> [View<'_>; 3] {
     ]
 }
 
-fn views<'a>(results: &'a Results, technique: &'a TechniqueResult) -> [View<'a>; 4] {
+fn views<'a>(results: &'a Results, technique: &'a TechniqueResult) -> Vec<View<'a>> {
     let (images, truth) = (&technique.images, &results.truth.images);
     let view = |what: &str, file: &'a str| View {
         label: format!("{} · {what}", label(results, technique)),
@@ -44,12 +44,16 @@ fn views<'a>(results: &'a Results, technique: &'a TechniqueResult) -> [View<'a>;
         difference: Some([&images.visibility, truth]),
         ..view(what, file)
     };
+    let classes = images.classes.as_ref().map(|file| view("classes", file));
     [
         view("picture", &images.picture),
         view("visibility", &images.visibility),
         error("error to light-space ideal", &images.error_light_space, &truth.light_space),
         error("error to hard truth", &images.error_hard, &truth.hard),
     ]
+    .into_iter()
+    .chain(classes)
+    .collect()
 }
 
 /// Every image that the page shows, once: a JSON object from file name to base64, safe in a script
