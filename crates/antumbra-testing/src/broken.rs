@@ -113,6 +113,12 @@ impl Technique for Broken {
     fn ripple(&self) -> f32 {
         self.inner.ripple()
     }
+    fn stored_zero(&self, map: usize) -> f32 {
+        self.inner.stored_zero(map)
+    }
+    fn lookups(&self) -> u32 {
+        self.inner.lookups()
+    }
     fn boxed(&self) -> Box<dyn Technique> {
         Box::new(self.clone())
     }

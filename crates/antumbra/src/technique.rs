@@ -257,9 +257,7 @@ pub trait Technique: Debug + Send + Sync {
     }
     /// Texture lookups of its visibility function for a pixel that its filters do not stretch; an
     /// interpolated one counts once. What a pixel costs on hardware that is bound by them.
-    fn lookups(&self) -> u32 {
-        1
-    }
+    fn lookups(&self) -> u32;
     /// A copy behind a pointer.
     fn boxed(&self) -> Box<dyn Technique>;
 }
