@@ -104,13 +104,14 @@ fn holes(gpu: &antumbra_testing::Gpu) {
     let mut masked = Shot::new(gpu, &checkered(true), [320, 240]);
     let mut solid = Shot::new(gpu, &checkered(false), [320, 240]);
     let truth = masked.hard_truth();
-    let good = score(&masked.answer(&Hard, 1024, None), &truth).pixel_match;
+    let good = score(&masked.answer(&Hard::default(), 1024, None), &truth).pixel_match;
     assert!(good >= 0.98, "pixel match {good}");
     // The shadow of the uncut quad is not that shadow.
-    let other = score(&solid.answer(&Hard, 1024, None), &truth).pixel_match;
+    let other = score(&solid.answer(&Hard::default(), 1024, None), &truth).pixel_match;
     assert!(other < 0.98, "pixel match {other}");
-    let dark =
-        |shot: &mut Shot| shot.answer(&Hard, 1024, None).values.iter().filter(|v| **v < 0.5).count() as f64;
+    let dark = |shot: &mut Shot| {
+        shot.answer(&Hard::default(), 1024, None).values.iter().filter(|v| **v < 0.5).count() as f64
+    };
     let share = dark(&mut masked) / dark(&mut solid);
     assert!((0.4..0.6).contains(&share), "half of the fields are open, yet {share} of the shadow is left");
 }

@@ -23,7 +23,13 @@ fn variants() -> Vec<Box<dyn Technique>> {
             settings.extend(["sampling=nearest", "sampling=bilinear", "sampling=anisotropic,anisotropy=4"]);
         }
         if names.contains(&"taps") {
-            settings.extend(["taps=nearest", "kernel=8,weights=box"]);
+            settings.extend(["taps=nearest", "taps=bilinear", "taps=merged", "kernel=8,weights=box"]);
+        }
+        if names.contains(&"precision") {
+            settings.push("precision=12");
+        }
+        if names.contains(&"spin") {
+            settings.extend(["spin=fixed", "points=64"]);
         }
         if names.contains(&"terms") {
             settings.extend(["terms=1", "terms=5"]);
@@ -133,8 +139,8 @@ fn files_that_break_a_rule_are_found() {
 #[test]
 fn every_shared_file_validates_with_its_needs_and_nothing_else() {
     for (stem, _) in FILES {
-        for level in ["level_hardware", "level_manual"] {
-            let text = ShaderText::file(stem, &[level]).text();
+        for slots in [["level_hardware", "reference_exact"], ["level_manual", "reference_stepped"]] {
+            let text = ShaderText::file(stem, &slots).text();
             let module = validate(&text).unwrap_or_else(|e| panic!("{stem}: {e}"));
             assert!(module.global_variables.is_empty(), "{stem} binds something");
         }
