@@ -54,6 +54,8 @@
 //! | `poisson` | [`Poisson`] | 4 bytes | 4 to 64 | any width for the price of its points; noise or bands instead of smooth penumbrae |
 //! | `bicubic` | [`Bicubic`] | 4 bytes | 4 | the smoothest edge of four lookups; its width is fixed |
 //! | `footprint` | [`Footprint`] | 4 bytes | 1 to 16 | as wide as the pixel: antialiases distant receivers; hard where magnified |
+//! | `packed` | [`Packed`] | 16 bytes (4 or 8 as options) | 1 or 4 | four depths per fetch; 5 or 17 levels of grey |
+//! | `stratified` | [`Stratified`] | 16·⌈n²/4⌉ bytes (less as options) | ⌈n²/4⌉ | n times the resolution; the casters are drawn n² times |
 //! | `vsm` | [`Vsm`] | 8 bytes, 1⅓ times with mips | 1 | any blur for the price of its passes; light bleeds where casters overlap |
 //! | `csm` | [`Csm`] | 4·⌈M/2⌉ bytes, 1⅓ times with mips | ⌈M/2⌉ | does not bleed between layers; bright near contact, rings |
 //! | `esm` | [`Esm`] | 4 bytes, 1⅓ times with mips | 1 | cheapest filtered map, no bias; too bright where casters lie close behind one another |
@@ -123,5 +125,5 @@ pub use precision::Precision;
 pub use shader::{CASTER_WGSL, ShaderText};
 pub use technique::{
     Technique, bicubic::Bicubic, csm::Csm, esm::Esm, evsm::Evsm, footprint::Footprint, hard::Hard,
-    lvsm::Lvsm, msm::Msm, pcf::Pcf, poisson::Poisson, vsm::Vsm,
+    lvsm::Lvsm, msm::Msm, packed::Packed, pcf::Pcf, poisson::Poisson, stratified::Stratified, vsm::Vsm,
 };

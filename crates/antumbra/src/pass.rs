@@ -18,6 +18,8 @@ mod mips;
 pub(crate) enum Slot {
     /// The casters' depth of the view.
     Casters,
+    /// The depth of one of several caster passes of the view: its number, and how many there are.
+    Cast(u32, u32),
     /// Entry of `Technique::maps`; layers count from the view's first.
     Map(usize),
     /// One layer of the size and format of that map, shared by all its blurs.
@@ -43,6 +45,26 @@ pub(crate) struct Step {
     pub(crate) targets: Vec<Place>,
 }
 
+impl Step {
+    /// The caster pass that it follows, if not the last.
+    pub(crate) fn cast(&self) -> Option<u32> {
+        match self.source.slot {
+            Slot::Cast(cast, _) => Some(cast),
+            _ => None,
+        }
+    }
+
+    /// The channels that it writes, and whether those of an earlier step stay.
+    pub(crate) fn writes(&self) -> (wgpu::ColorWrites, bool) {
+        use wgpu::ColorWrites as Writes;
+        const CHANNELS: [Writes; 4] = [Writes::RED, Writes::GREEN, Writes::BLUE, Writes::ALPHA];
+        match self.cast() {
+            Some(cast) => (CHANNELS[cast as usize % 4], !cast.is_multiple_of(4)),
+            None => (Writes::ALL, false),
+        }
+    }
+}
+
 /// Mip levels of a full chain.
 pub(crate) fn mip_levels(size: Size) -> u32 {
     size.width.max(size.height).ilog2() + 1
@@ -56,8 +78,18 @@ pub(crate) fn levels(map: &Map, size: Size) -> u32 {
 /// All steps between casting and lighting of one view.
 pub(crate) fn plan(technique: &dyn Technique, device: &Capabilities, maps: &[Map], size: Size) -> Vec<Step> {
     let mut steps = Vec::new();
+    let casts = technique.jitter().len() as u32;
     for (index, map) in maps.iter().enumerate() {
         let slot = Slot::Map(index);
+        if casts > 1 {
+            steps.extend((0..casts).map(|cast| Step {
+                label: "convert",
+                shader: shader::convert(technique, device, map, cast / 4, 1),
+                source: Place { slot: Slot::Cast(cast, casts), layer: 0, mip: 0 },
+                targets: vec![Place { slot, layer: cast / 4, mip: 0 }],
+            }));
+            continue;
+        }
         let together = device.targets_per_pass(map.format);
         for first in (0..map.layers).step_by(together as usize) {
             let count = together.min(map.layers - first);

@@ -1,9 +1,11 @@
 //! How exactly a comparison technique stores depth.
 
 use crate::{
+    capabilities::Capabilities,
     parameter::{Field, Parameter, choice},
     technique::Constant,
 };
+use wgpu::TextureFormat;
 
 choice! {
     /// Bits of the stored depth. Fewer than 24 show as bands of acne or detached shadows: the artefacts
@@ -50,6 +52,27 @@ impl Precision {
     /// Compile-time settings of that file.
     pub(crate) fn constants(self) -> Vec<Constant> {
         self.steps().map(|n| Constant::Count("reference_steps", n)).into_iter().collect()
+    }
+
+    /// Format of four depths in one texel.
+    pub(crate) fn rgba(self, device: &Capabilities) -> TextureFormat {
+        match self {
+            Self::Bits8 => TextureFormat::Rgba8Unorm,
+            Self::Bits12 | Self::Bits16 if device.renders(TextureFormat::Rgba16Unorm) => {
+                TextureFormat::Rgba16Unorm
+            }
+            Self::Bits12 | Self::Bits16 | Self::Bits24 | Self::Float32 => TextureFormat::Rgba32Float,
+        }
+    }
+
+    /// What is told where [`rgba`](Self::rgba) takes more bits than needed.
+    pub(crate) fn fallbacks(self, device: &Capabilities) -> Vec<String> {
+        match (self, self.rgba(device)) {
+            (Self::Bits12 | Self::Bits16, TextureFormat::Rgba32Float) => vec![
+                "depths in 32 bits instead of 16, twice the memory: Rgba16Unorm cannot be rendered to without TEXTURE_FORMAT_16BIT_NORM and TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES".into(),
+            ],
+            _ => Vec::new(),
+        }
     }
 
     /// Its row in a technique's parameter table.

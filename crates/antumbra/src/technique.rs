@@ -11,6 +11,7 @@ use crate::{
     kernel::Kernel,
     parameter::Parameter,
 };
+use glam::Vec2;
 use std::fmt::Debug;
 
 /// How a technique gets from depth to visibility.
@@ -188,6 +189,12 @@ pub trait Technique: Debug + Send + Sync {
     fn page(&self) -> Page;
     /// The settings, in the order in which they should be shown.
     fn parameters(&mut self) -> Vec<Parameter<'_>>;
+    /// Where within a texel the casters are sampled: one caster pass per view for each offset, in texels
+    /// from the centre, y down. Several passes fill the channels of the first map in turn, layer by
+    /// layer, each with what the encode function makes of its depth.
+    fn jitter(&self) -> Vec<Vec2> {
+        vec![Vec2::ZERO]
+    }
     /// The textures it keeps on such a device; none for the comparison family, which keeps depth.
     ///
     /// # Errors
@@ -325,6 +332,8 @@ techniques! {
     poisson::Poisson,
     bicubic::Bicubic,
     footprint::Footprint,
+    packed::Packed,
+    stratified::Stratified,
     vsm::Vsm,
     csm::Csm,
     esm::Esm,

@@ -13,7 +13,7 @@ use antumbra_testing::{
     Gpu, Trials,
     image::{Image, Tolerance},
 };
-use common::{Receiver, depth_texture, shadow_map, visibility};
+use common::{Receiver, depth_layers, depth_texture, shadow_map, visibility};
 use glam::{Vec2, Vec3};
 use std::path::PathBuf;
 
@@ -69,10 +69,15 @@ fn receivers() -> Vec<Receiver> {
 }
 
 fn picture(gpu: &Gpu, spec: &str, bias: Option<Bias>) -> Vec<f32> {
-    let texel = |i: u32| (i as f32 + 0.5) / 64.0;
-    let depth = depth_texture(gpu, SIZE, |x, y| nearest(texel(x), texel(y)));
+    let technique = technique::parse(spec).unwrap();
+    let jitter = technique.jitter();
+    let texel = |i: u32, offset: f32| (i as f32 + 0.5 + offset) / 64.0;
+    let depth = depth_layers(gpu, SIZE, jitter.len() as u32, |pass, x, y| {
+        let offset = jitter[pass as usize];
+        nearest(texel(x, offset.x), texel(y, offset.y))
+    });
     let options = Options { bias, ..SIZE.into() };
-    let shadows = shadow_map(gpu, technique::parse(spec).unwrap().as_ref(), &depth, options);
+    let shadows = shadow_map(gpu, technique.as_ref(), &depth, options);
     visibility(gpu, &shadows, &receivers())
 }
 
@@ -178,6 +183,28 @@ fn footprint_grows_with_the_pixel(gpu: &Gpu) {
     assert!(large < 0.4 * small, "a pixel of half a texel {small}, of six {large}");
 }
 
+/// Whether every value is a whole number of steps.
+fn in_steps_of(picture: &[f32], step: f32) -> bool {
+    picture.iter().all(|v| (v / step - (v / step).round()).abs() < 1e-3)
+}
+
+fn packed_has_the_levels_of_the_paper(gpu: &Gpu) {
+    let [two, four] = ["packed", "packed.grid=4"].map(|spec| picture(gpu, spec, None));
+    assert!(levels(&two) == 5 && in_steps_of(&two, 1.0 / 4.0), "{} levels of 2×2", levels(&two));
+    assert!(levels(&four) == 17 && in_steps_of(&four, 1.0 / 16.0), "{} levels of 4×4", levels(&four));
+    let bytes = levels(&picture(gpu, "packed.grid=4,accumulation=bytes", None));
+    assert!((20..=35).contains(&bytes), "{bytes} levels of 4×4 in bytes");
+}
+
+fn stratified_has_as_many_levels_as_samples(gpu: &Gpu) {
+    for grid in [2_u32, 3, 4] {
+        let picture = picture(gpu, &format!("stratified.grid={grid}"), None);
+        let samples = grid * grid;
+        assert!(in_steps_of(&picture, 1.0 / samples as f32), "{grid}×{grid}");
+        assert!(levels(&picture) <= samples as usize + 1 && levels(&picture) > samples as usize / 2);
+    }
+}
+
 fn vsm_bleeds_between_two_layers(gpu: &Gpu) {
     let leak = |spec| largest(&at(&picture(gpu, spec, None), two_layers));
     let (vsm, reduced, esm) = (leak("vsm"), leak("vsm.reduction=0.4"), leak("esm"));
@@ -250,6 +277,8 @@ fn main() {
         ("poisson", "turns bands into noise", poisson_turns_bands_into_noise),
         ("bicubic", "smoothest edge of four lookups", bicubic_has_the_smoothest_edge_of_four_lookups),
         ("footprint", "grows with the pixel", footprint_grows_with_the_pixel),
+        ("packed", "the levels of the paper", packed_has_the_levels_of_the_paper),
+        ("stratified", "as many levels as samples", stratified_has_as_many_levels_as_samples),
         ("vsm", "bleeds between two layers", vsm_bleeds_between_two_layers),
         ("csm", "brighter at contact with fewer terms", csm_is_brighter_at_contact_with_fewer_terms),
         ("esm", "needs no bias", esm_needs_no_bias),

@@ -36,6 +36,8 @@ fn specs() -> Vec<String> {
         more("taps", "taps=nearest,kernel=5");
         more("taps", "taps=bilinear");
         more("taps", "taps=merged,kernel=4");
+        more("grid", "grid=4");
+        more("accumulation", "grid=4,accumulation=bytes,precision=8");
         more("spin", "spin=fixed,points=5");
         more("precision", "precision=16");
         more("sampling", "sampling=anisotropic");
@@ -329,6 +331,9 @@ impl Technique for Broken {
     fn parameters(&mut self) -> Vec<antumbra::Parameter<'_>> {
         self.inner.parameters()
     }
+    fn jitter(&self) -> Vec<Vec2> {
+        self.inner.jitter()
+    }
     fn maps(&self, device: &Capabilities) -> Result<Vec<Map>, antumbra::Unsupported> {
         let mut maps = self.inner.maps(device)?;
         for pass in maps.iter_mut().flat_map(|m| &mut m.passes) {
@@ -426,6 +431,16 @@ fn broken() -> Vec<(&'static str, Law, Broken)> {
                 "compare, uv, view",
                 "compare, uv + vec2f(0.5) / vec2f(textureDimensions(casters)), view",
             ),
+        ),
+        (
+            "no half texel towards the four texels' corner",
+            shrinks_to_the_hard_shadow,
+            Broken::saying("packed", "vec2f(0.5, -0.5)", "vec2f(1.5, -0.5)"),
+        ),
+        (
+            "the first view's samples always",
+            views_do_not_matter,
+            Broken::saying("stratified", "view * LAYERS + layer", "layer"),
         ),
         (
             "the sum of points instead of their mean",

@@ -7,7 +7,7 @@ use std::{
 };
 use wgpu::{BindGroup, BindGroupLayout, RenderPipeline, TextureFormat, TextureView};
 
-type Key = (String, Vec<TextureFormat>);
+type Key = (String, Vec<TextureFormat>, wgpu::ColorWrites);
 
 /// The pipelines of the passes between casting and lighting, each compiled once. Clones share.
 #[derive(Debug, Clone)]
@@ -79,7 +79,7 @@ impl Pipelines {
 
     pub(super) fn get(&self, step: &Step, formats: &[TextureFormat]) -> RenderPipeline {
         let mut made = self.made.lock().unwrap_or_else(PoisonError::into_inner);
-        made.entry((step.shader.clone(), formats.to_vec()))
+        made.entry((step.shader.clone(), formats.to_vec(), step.writes().0))
             .or_insert_with(|| self.compile(step, formats))
             .clone()
     }
@@ -90,7 +90,7 @@ impl Pipelines {
             source: wgpu::ShaderSource::Wgsl(step.shader.as_str().into()),
         });
         let group = match step.source.slot {
-            Slot::Casters => &self.depth,
+            Slot::Casters | Slot::Cast(..) => &self.depth,
             Slot::Map(_) | Slot::Scratch(_) => &self.texture,
         };
         let layout = self.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
@@ -98,7 +98,9 @@ impl Pipelines {
             bind_group_layouts: &[Some(group)],
             immediate_size: 0,
         });
-        let targets: Vec<_> = formats.iter().map(|f| Some(wgpu::ColorTargetState::from(*f))).collect();
+        let (write_mask, _) = step.writes();
+        let target = |format: &TextureFormat| wgpu::ColorTargetState { write_mask, ..(*format).into() };
+        let targets: Vec<_> = formats.iter().map(|f| Some(target(f))).collect();
         self.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(step.label),
             layout: Some(&layout),

@@ -28,6 +28,9 @@ fn variants() -> Vec<Box<dyn Technique>> {
         if names.contains(&"precision") {
             settings.push("precision=12");
         }
+        if names.contains(&"grid") {
+            settings.push("grid=4");
+        }
         if names.contains(&"spin") {
             settings.extend(["spin=fixed", "points=64"]);
         }
