@@ -109,12 +109,13 @@ mod parameter;
 mod pass;
 mod precision;
 mod shader;
+mod table;
 pub mod technique;
 
 pub use capabilities::Capabilities;
 pub use cascade::{Cascades, Stage};
 pub use error::{LightError, SettingError, Unsupported};
-pub use filter::{Filter, Sampling};
+pub use filter::{Filter, Sampling, Values};
 pub use kernel::{Kernel, Weights};
 pub use light::{Bounds, Fit, Light, Size, View, visible_hull};
 pub use map::{
@@ -123,6 +124,7 @@ pub use map::{
 pub use parameter::{Choice, Field, Parameter};
 pub use precision::Precision;
 pub use shader::{CASTER_WGSL, ShaderText};
+pub use table::Table;
 pub use technique::{
     Technique, bicubic::Bicubic, csm::Csm, esm::Esm, evsm::Evsm, footprint::Footprint, hard::Hard,
     lvsm::Lvsm, msm::Msm, packed::Packed, pcf::Pcf, poisson::Poisson, stratified::Stratified, vsm::Vsm,

@@ -19,7 +19,7 @@
 //!
 //! Brabec & Seidel 2001, "Hardware-accelerated rendering of antialiased shadows with shadow maps", §4.
 
-use super::{Bias, Binding, Constant, Family, Map, Page, Technique};
+use super::{Bias, Binding, Constant, Encode, Family, Map, Page, Technique};
 use crate::{
     capabilities::Capabilities,
     error::Unsupported,
@@ -91,7 +91,7 @@ impl Technique for Packed {
             name: "packed depth",
             format: self.precision.rgba(device),
             layers: 1,
-            encode: "packed_encode",
+            encode: Encode::Neighbours("packed_encode"),
             passes: Vec::new(),
         }])
     }

@@ -7,7 +7,7 @@
 //!
 //! Brabec & Seidel 2001, "Hardware-accelerated rendering of antialiased shadows with shadow maps", §3.
 
-use super::{Bias, Binding, Constant, Family, Map, Page, Technique};
+use super::{Bias, Binding, Constant, Encode, Family, Map, Page, Technique};
 use crate::{
     capabilities::Capabilities,
     error::Unsupported,
@@ -63,7 +63,7 @@ impl Technique for Stratified {
             name: "jittered depth",
             format: self.precision.rgba(device),
             layers: (self.grid * self.grid).div_ceil(4),
-            encode: "stratified_encode",
+            encode: Encode::Texel("stratified_encode"),
             passes: Vec::new(),
         }])
     }

@@ -4,8 +4,8 @@
 const stratified_grid: u32 = 2;
 
 /// The depth of one caster pass, which goes to one channel.
-fn stratified_encode(depths: mat3x3f, layer: u32) -> vec4f {
-    return vec4f(depths[1][1]);
+fn stratified_encode(depth: f32, layer: u32) -> vec4f {
+    return vec4f(depth);
 }
 
 /// Share of the n×n depths in the texel of uv that the receiver is not behind, each compared where it
