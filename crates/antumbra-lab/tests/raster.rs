@@ -146,6 +146,9 @@ impl Technique for Gradients {
     fn reach_texels(&self) -> f32 {
         0.5
     }
+    fn lookups(&self) -> u32 {
+        0
+    }
     fn boxed(&self) -> Box<dyn Technique> {
         Box::new(self.clone())
     }

@@ -169,6 +169,12 @@ impl Filter {
         constants
     }
 
+    /// Texture lookups behind one `lookup_filtered` whose footprint is not stretched.
+    #[must_use]
+    pub fn lookups(&self, values: &Values) -> u32 {
+        self.table(values).map_or(1, |table| 16 * table.parts())
+    }
+
     /// See [`Technique::reach_texels`](crate::Technique::reach_texels).
     #[must_use]
     pub fn reach_texels(&self) -> f32 {

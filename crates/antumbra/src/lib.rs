@@ -86,7 +86,8 @@
 //! Vulkan, Metal, DX12 and WebGPU (also in the browser: there is no blocking call). GL and WebGL2
 //! are refused with [`Unsupported::Backend`]: a depth texture can only be compared there. No feature
 //! is required and WebGPU's default limits are enough; a few features are used where the *device*
-//! was created with them, and [`ShadowMap::explain`] tells which path was taken:
+//! was created with them ([`Capabilities::OPTIONAL_FEATURES`] is what to ask for), and
+//! [`ShadowMap::explain`] tells which path was taken:
 //!
 //! | without | instead |
 //! | --- | --- |

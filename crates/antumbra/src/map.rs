@@ -361,6 +361,13 @@ impl ShadowMap {
         self.textures.maps().get(index).map(|map| &map.texture)
     }
 
+    /// Names of the passes between casting and lighting, in order, for each view: what
+    /// [`Probe::pass`] hears after `cast`.
+    #[must_use]
+    pub fn passes(&self) -> Vec<&'static str> {
+        self.draws.first().map(|view| view.iter().map(|draw| draw.label).collect()).unwrap_or_default()
+    }
+
     /// Every texture and buffer that was allocated, mips included.
     #[must_use]
     pub fn memory(&self) -> Memory {

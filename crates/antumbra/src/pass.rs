@@ -100,6 +100,14 @@ impl Run {
         })
     }
 
+    /// Runs of at most so many layers, and how many layers come before each.
+    fn parts(self, most: u32) -> impl Iterator<Item = (u32, Self)> {
+        (0..self.count).step_by(most as usize).map(move |skipped| {
+            let count = most.min(self.count - skipped);
+            (skipped, Self { first: self.first + skipped, count, ..self })
+        })
+    }
+
     /// The first layers of its scratch texture.
     fn scratch(self) -> impl Iterator<Item = Place> {
         (0..self.count).map(move |layer| Place { slot: Slot::Scratch(self.map), layer, mip: 0 })
@@ -112,8 +120,8 @@ impl Run {
         from: Place,
         targets: impl Iterator<Item = Place>,
     ) -> Step {
-        let source_layers = self.count;
-        Step { label, shader, work: Work::Draw, source: from, source_layers, targets: targets.collect() }
+        let targets = targets.take(self.count as usize).collect();
+        Step { label, shader, work: Work::Draw, source: from, source_layers: self.count, targets }
     }
 }
 
@@ -179,7 +187,7 @@ fn run_steps(source: &Source, map: &Map, run: Run, size: Size) -> Vec<Step> {
     match passes.peek() {
         Some(Pass::Blur(kernel, combine)) if source.is_cheap() => {
             steps.push(source.rows(kernel, *combine, run));
-            steps.push(blur::columns(kernel, *combine, run));
+            steps.extend(blur::columns(kernel, *combine, run));
             passes.next();
         }
         _ => steps.push(source.plain(run)),

@@ -290,6 +290,14 @@ pub trait Technique: Debug + Send + Sync {
     fn ripple(&self) -> f32 {
         0.0
     }
+    /// The stored value that stands for zero in entry `map` of [`maps`](Self::maps), for debug views:
+    /// ½ where signed numbers are kept in an unsigned format.
+    fn stored_zero(&self, _map: usize) -> f32 {
+        0.0
+    }
+    /// Texture lookups of its visibility function for a pixel that its filters do not stretch; an
+    /// interpolated one counts once. What a pixel costs on hardware that is bound by them.
+    fn lookups(&self) -> u32;
     /// A copy behind a pointer.
     fn boxed(&self) -> Box<dyn Technique>;
 }

@@ -9,9 +9,9 @@ mod common;
 
 use antumbra::{
     Capabilities, Size, Technique, View, technique,
-    technique::{Bias, Binding, Class, Combine, Constant, DepthSpace, Map, Page, Pass, Uniform},
+    technique::{Combine, Pass},
 };
-use antumbra_testing::{Gpu, Trials};
+use antumbra_testing::{Gpu, Trials, broken::Broken};
 use common::{Random, Receiver, depth_layers, depth_texture, shadow_map, shadow_map_of, texels, visibility};
 use glam::{Mat4, Vec2, Vec3};
 
@@ -327,98 +327,6 @@ const LAWS: [(&str, Law); 8] = [
     ("the same in any view", views_do_not_matter),
     ("fallbacks agree", fallbacks_agree),
 ];
-
-/// A technique with one thing wrong.
-#[derive(Debug, Clone)]
-struct Broken {
-    inner: Box<dyn Technique>,
-    wgsl: &'static str,
-    /// Factor of all kernel weights.
-    weights: f32,
-    /// A uniform with a wrong value.
-    uniform: Option<Uniform>,
-    /// Takes one texel where it should interpolate by itself.
-    careless: bool,
-}
-
-impl Broken {
-    fn new(spec: &str) -> Self {
-        let inner = technique::parse(spec).unwrap();
-        Self { wgsl: inner.wgsl(), inner, weights: 1.0, uniform: None, careless: false }
-    }
-
-    /// With other words in its WGSL.
-    fn saying(spec: &str, right: &str, wrong: &str) -> Self {
-        let plain = Self::new(spec);
-        assert!(plain.wgsl.contains(right), "{right}");
-        Self { wgsl: plain.wgsl.replace(right, wrong).leak(), ..plain }
-    }
-}
-
-impl Technique for Broken {
-    fn page(&self) -> Page {
-        self.inner.page()
-    }
-    fn parameters(&mut self) -> Vec<antumbra::Parameter<'_>> {
-        self.inner.parameters()
-    }
-    fn jitter(&self) -> Vec<Vec2> {
-        self.inner.jitter()
-    }
-    fn maps(&self, device: &Capabilities) -> Result<Vec<Map>, antumbra::Unsupported> {
-        let mut maps = self.inner.maps(device)?;
-        for pass in maps.iter_mut().flat_map(|m| &mut m.passes) {
-            if let Pass::Blur(kernel, _) = pass {
-                kernel.taps.iter_mut().for_each(|w| *w *= self.weights);
-            }
-        }
-        Ok(maps)
-    }
-    fn bindings(&self) -> Vec<Binding> {
-        self.inner.bindings()
-    }
-    fn wgsl(&self) -> &'static str {
-        self.wgsl
-    }
-    fn uniforms(&self) -> Vec<Uniform> {
-        let wrong = |u: Uniform| self.uniform.filter(|w| w.0 == u.0).unwrap_or(u);
-        self.inner.uniforms().into_iter().map(wrong).collect()
-    }
-    fn constants(&self) -> Vec<Constant> {
-        let mut constants = self.inner.constants();
-        for constant in &mut constants {
-            if let Constant::Array(_, values) = constant {
-                values.iter_mut().for_each(|w| *w *= self.weights);
-            }
-        }
-        constants
-    }
-    fn parts(&self, device: &Capabilities) -> Vec<&'static str> {
-        let parts = self.inner.parts(device);
-        if self.careless && parts.contains(&"level_manual") { vec!["lookup_nearest"] } else { parts }
-    }
-    fn classes(&self) -> &'static [Class] {
-        self.inner.classes()
-    }
-    fn bias(&self) -> Bias {
-        self.inner.bias()
-    }
-    fn depth_step(&self) -> f32 {
-        self.inner.depth_step()
-    }
-    fn depth_space(&self) -> DepthSpace {
-        self.inner.depth_space()
-    }
-    fn reach_texels(&self) -> f32 {
-        self.inner.reach_texels()
-    }
-    fn ripple(&self) -> f32 {
-        self.inner.ripple()
-    }
-    fn boxed(&self) -> Box<dyn Technique> {
-        Box::new(self.clone())
-    }
-}
 
 /// For each law, what it must reject.
 fn broken() -> Vec<(&'static str, Law, Broken)> {

@@ -1,7 +1,13 @@
 //! Techniques made ready to be drawn on one stage.
 
 use super::view;
-use crate::{gpu::Gpu, lighting::Lookup, stage::Stage, timing::Entrant};
+use crate::{
+    gpu::Gpu,
+    lighting::{Lighting, Lookup},
+    plane::Plane,
+    stage::Stage,
+    timing::Entrant,
+};
 use antumbra::{Options, Pipelines, ShadowMap, Size, Technique, View, technique};
 use antumbra_scene::{Geometry, Light};
 use anyhow::{Context, Result};
@@ -13,9 +19,24 @@ pub struct Contestant {
     pub shadows: ShadowMap,
     /// Its lookup pass.
     pub lookup: Lookup,
+    /// The pass that asks for classes, if it has any.
+    pub classes: Option<Lookup>,
 }
 
 impl Contestant {
+    /// Class of every pixel, as [`shares`](crate::classes::shares) takes them, if the technique has
+    /// any. Its maps and the stage's surfaces are drawn; overwrites the visibility buffer.
+    ///
+    /// # Errors
+    /// If the device is lost.
+    pub fn read_classes(&self, gpu: &Gpu, stage: &Stage, lighting: &Lighting) -> Result<Option<Plane>> {
+        let Some(lookup) = &self.classes else { return Ok(None) };
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        lighting.encode_lookup(&mut encoder, stage, lookup, Some(&self.shadows), None);
+        gpu.finish(encoder)?;
+        lighting.read_visibility(gpu).map(Some)
+    }
+
     /// What a race takes.
     #[must_use]
     pub fn entrant(&self) -> Entrant<'_> {
@@ -43,8 +64,9 @@ pub fn enter(
         let shadows = ShadowMap::new(&gpu.device, technique.as_ref(), options)
             .with_context(|| technique::spec(technique.as_ref()))?;
         let lookup = Lookup::new(gpu, stage, &shadows);
+        let classes = Lookup::classes(gpu, stage, &shadows);
         gpu.check().with_context(|| technique::spec(technique.as_ref()))?;
-        contestants.push(Contestant { shadows, lookup });
+        contestants.push(Contestant { shadows, lookup, classes });
     }
     let maps: Vec<&ShadowMap> = contestants.iter().map(|c| &c.shadows).collect();
     let view = view(stage, geometry, light, &maps)?;

@@ -4,21 +4,27 @@
 //! whose clamping repeats the edge: the form that software drivers compile best, and no worse on
 //! GPUs.
 
-use super::{Run, Step, combine, targets};
+use super::{Place, Run, Slot, Step, combine, targets};
 use crate::{kernel::Kernel, technique::Combine};
+
+/// Layers that are convolved at once: with more, software drivers run out of registers.
+const TOGETHER: u32 = 4;
 
 /// Rows and columns.
 pub(super) fn steps(kernel: &Kernel, how: Combine, run: Run) -> impl Iterator<Item = Step> {
-    let rows = shader(kernel, how, run.count, "x");
-    let from = run.kept(0).next();
-    let rows = from.map(|from| run.step("blur", rows, from, run.scratch()));
-    rows.into_iter().chain([columns(kernel, how, run)])
+    let rows = run.parts(TOGETHER).map(move |(skipped, part)| {
+        let from = Place { slot: Slot::Map(run.map), layer: part.first, mip: 0 };
+        part.step("blur", shader(kernel, how, part.count, "x"), from, run.scratch().skip(skipped as usize))
+    });
+    rows.chain(columns(kernel, how, run))
 }
 
 /// Columns of scratch layers that hold blurred rows.
-pub(super) fn columns(kernel: &Kernel, how: Combine, run: Run) -> Step {
-    let from = super::Place { slot: super::Slot::Scratch(run.map), layer: 0, mip: 0 };
-    run.step("blur", shader(kernel, how, run.count, "y"), from, run.kept(0))
+pub(super) fn columns(kernel: &Kernel, how: Combine, run: Run) -> impl Iterator<Item = Step> {
+    run.parts(TOGETHER).map(move |(layer, part)| {
+        let from = Place { slot: Slot::Scratch(run.map), layer, mip: 0 };
+        part.step("blur", shader(kernel, how, part.count, "y"), from, part.kept(0))
+    })
 }
 
 fn shader(kernel: &Kernel, how: Combine, count: u32, axis: &str) -> String {

@@ -56,6 +56,9 @@ impl Technique for Bicubic {
     fn reach_texels(&self) -> f32 {
         2.0
     }
+    fn lookups(&self) -> u32 {
+        4
+    }
     fn boxed(&self) -> Box<dyn Technique> {
         Box::new(*self)
     }

@@ -12,7 +12,7 @@ use super::{Binding, Combine, Constant, Encode, Family, Map, Page, Technique, Un
 use crate::{
     capabilities::Capabilities,
     error::Unsupported,
-    filter::{Filter, Values},
+    filter::{Filter, Sampling, Values},
     parameter::{Field, Parameter, choice},
 };
 use std::f64::consts::PI;
@@ -218,6 +218,12 @@ impl Technique for Csm {
             .map(|(k, a)| 2.0 * a / (PI * (2.0 * f64::from(k) - 1.0)) * self.rounding() * std::f64::consts::SQRT_2)
             .sum();
         ((ringing + quantisation) * if matches!(self.lift, Lift::Scale | Lift::Both) { 2.0 } else { 1.0 }) as f32
+    }
+    fn stored_zero(&self, _: usize) -> f32 {
+        if self.filter.sampling == Sampling::Summed { 0.0 } else { 0.5 }
+    }
+    fn lookups(&self) -> u32 {
+        self.layers() * self.filter.lookups(&self.values())
     }
     fn boxed(&self) -> Box<dyn Technique> {
         Box::new(*self)

@@ -256,6 +256,11 @@ impl Technique for Esm {
     fn reach_texels(&self) -> f32 {
         self.filter.reach_texels()
     }
+    /// Where no pixel fails: custom filtering takes four more.
+    fn lookups(&self) -> u32 {
+        let classifying = if self.classifier == Classifier::ZMax { 4 } else { 0 };
+        self.filter.lookups(&self.values(None)) + classifying
+    }
     fn boxed(&self) -> Box<dyn Technique> {
         Box::new(*self)
     }

@@ -255,6 +255,9 @@ impl Technique for Evsm {
         let behind = (0.2 * c).exp() - 1.0;
         (least / (least + behind * behind) - self.reduction).max(0.0) / (1.0 - self.reduction)
     }
+    fn lookups(&self) -> u32 {
+        self.filter.lookups(&self.values())
+    }
     fn boxed(&self) -> Box<dyn Technique> {
         Box::new(*self)
     }

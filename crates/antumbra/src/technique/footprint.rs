@@ -78,6 +78,9 @@ impl Technique for Footprint {
     fn reach_texels(&self) -> f32 {
         1.0
     }
+    fn lookups(&self) -> u32 {
+        1
+    }
     fn boxed(&self) -> Box<dyn Technique> {
         Box::new(*self)
     }

@@ -167,6 +167,15 @@ impl Technique for Lvsm {
             Choose::Receiver | Choose::Blend => (bound - self.reduction).max(0.0) / (1.0 - self.reduction),
         }
     }
+    /// Of a pixel in the last interval.
+    fn lookups(&self) -> u32 {
+        let boxes = match self.choose {
+            Choose::Least => self.intervals.div_ceil(2),
+            Choose::Receiver => 1,
+            Choose::Blend => 2,
+        };
+        boxes * self.filter.lookups(&self.values())
+    }
     fn boxed(&self) -> Box<dyn Technique> {
         Box::new(*self)
     }

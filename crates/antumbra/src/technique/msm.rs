@@ -184,6 +184,9 @@ impl Technique for Msm {
         let most = (0..=57).map(leak).fold(0.0, f64::max);
         (2.0 * most as f32 - self.reduction).max(0.0) / (1.0 - self.reduction)
     }
+    fn lookups(&self) -> u32 {
+        self.filter.lookups(&self.values(None))
+    }
     fn boxed(&self) -> Box<dyn Technique> {
         Box::new(*self)
     }

@@ -128,6 +128,12 @@ impl Technique for Packed {
             Grid::Four => 2.0,
         }
     }
+    fn lookups(&self) -> u32 {
+        match self.grid {
+            Grid::Two => 1,
+            Grid::Four => 4,
+        }
+    }
     fn boxed(&self) -> Box<dyn Technique> {
         Box::new(*self)
     }

@@ -161,6 +161,12 @@ impl Technique for Pcf {
             Taps::Bilinear | Taps::Merged | Taps::Gather => self.kernel as f32 / 2.0 + 0.5,
         }
     }
+    fn lookups(&self) -> u32 {
+        match self.taps {
+            Taps::Nearest | Taps::Bilinear => self.kernel.pow(2),
+            Taps::Merged | Taps::Gather => (self.kernel + 1).div_ceil(2).pow(2),
+        }
+    }
     fn boxed(&self) -> Box<dyn Technique> {
         Box::new(*self)
     }

@@ -104,6 +104,9 @@ impl Technique for Poisson {
     fn reach_texels(&self) -> f32 {
         self.kernel / 2.0 + 1.0
     }
+    fn lookups(&self) -> u32 {
+        self.points
+    }
     fn boxed(&self) -> Box<dyn Technique> {
         Box::new(*self)
     }

@@ -92,6 +92,9 @@ impl Technique for Stratified {
     fn reach_texels(&self) -> f32 {
         0.5
     }
+    fn lookups(&self) -> u32 {
+        (self.grid * self.grid).div_ceil(4)
+    }
     fn boxed(&self) -> Box<dyn Technique> {
         Box::new(*self)
     }

@@ -174,6 +174,9 @@ impl Technique for Vsm {
         let least = self.floor().into_iter().fold(0.0, f32::max);
         (least / (least + 0.01) - self.reduction).max(0.0) / (1.0 - self.reduction)
     }
+    fn lookups(&self) -> u32 {
+        self.filter.lookups(&self.values(None))
+    }
     fn boxed(&self) -> Box<dyn Technique> {
         Box::new(*self)
     }
