@@ -74,7 +74,8 @@ pub fn depth_layers(
     };
     use wgpu::TextureUsages as Usage;
     let source = texture(wgpu::TextureFormat::R32Float, Usage::TEXTURE_BINDING | Usage::COPY_DST);
-    let target = texture(antumbra::DEPTH_FORMAT, Usage::TEXTURE_BINDING | Usage::RENDER_ATTACHMENT);
+    let target =
+        texture(antumbra::DEPTH_FORMAT, Usage::TEXTURE_BINDING | Usage::RENDER_ATTACHMENT | Usage::COPY_SRC);
     gpu.queue.write_texture(
         source.as_image_copy(),
         bytes_of(&texels),
@@ -195,6 +196,34 @@ fn texels_of(depth: &wgpu::Texture) -> Size {
     Size { width: depth.width(), height: depth.height() }
 }
 
+/// Depth with every layer `times` times in a row.
+fn repeat_layers(gpu: &Gpu, depth: &wgpu::Texture, times: u32) -> wgpu::Texture {
+    let layers = depth.depth_or_array_layers();
+    let one = wgpu::Extent3d { depth_or_array_layers: 1, ..depth.size() };
+    let repeated = gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("test depth"),
+        size: wgpu::Extent3d { depth_or_array_layers: layers * times, ..one },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: depth.format(),
+        usage: depth.usage() | wgpu::TextureUsages::COPY_DST,
+        view_formats: &[],
+    });
+    let at = |texture, z| wgpu::TexelCopyTextureInfo {
+        texture,
+        mip_level: 0,
+        origin: wgpu::Origin3d { x: 0, y: 0, z },
+        aspect: wgpu::TextureAspect::All,
+    };
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    for layer in 0..layers * times {
+        encoder.copy_texture_to_texture(at(depth, layer / times), at(&repeated, layer), one);
+    }
+    gpu.queue.submit([encoder.finish()]);
+    repeated
+}
+
 /// The same with those views, one per layer of the depth.
 pub fn shadow_map_of(
     gpu: &Gpu,
@@ -204,7 +233,11 @@ pub fn shadow_map_of(
     views: &[View],
 ) -> ShadowMap {
     let options = options.pipelines(&kept(gpu).pipelines);
-    let mut shadows = ShadowMap::from_depth(&gpu.device, technique, depth, options).unwrap();
+    // Depth that was made for one caster pass serves all of them.
+    let casts = technique.jitter().len() as u32;
+    let repeated = depth.depth_or_array_layers() == views.len() as u32 && casts > 1;
+    let depth = if repeated { repeat_layers(gpu, depth, casts) } else { depth.clone() };
+    let mut shadows = ShadowMap::from_depth(&gpu.device, technique, &depth, options).unwrap();
     shadows.prepare(&gpu.queue, views).unwrap();
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     shadows.encode_filter(&mut encoder, &mut NoProbe);
