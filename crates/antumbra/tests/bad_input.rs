@@ -6,8 +6,8 @@
 mod common;
 
 use antumbra::{
-    Capabilities, Csm, Esm, Evsm, Filter, Hard, LightError, NoProbe, Options, Pcf, Pipelines, SettingError,
-    ShadowMap, Size, Technique, Unsupported, Vsm, technique,
+    Capabilities, Csm, Esm, Evsm, Filter, Hard, LightError, NoProbe, Options, Pcf, Pipelines, Sampling,
+    SettingError, ShadowMap, Size, Technique, Unsupported, Vsm, technique,
     technique::{Bias, evsm},
 };
 use antumbra_testing::{Gpu, Trials};
@@ -63,8 +63,9 @@ fn uniforms(_: &Gpu) {
 
 fn settings_in_public_fields(gpu: &Gpu) {
     let filter = |f: Filter| Esm { filter: f, ..Esm::default() };
-    let cases: [(Box<dyn Technique>, &[&str]); 13] = [
-        (Box::new(Esm { c: 88.0, ..Esm::default() }), &["esm.c", "88", "1 to 87"]),
+    let summed = |kernel| Filter { kernel, sampling: Sampling::Summed, ..Filter::default() };
+    let cases: [(Box<dyn Technique>, &[&str]); 17] = [
+        (Box::new(Esm { c: 88.0, ..Esm::default() }), &["esm.c", "88", "0 to 87"]),
         (Box::new(Esm { c: f32::NAN, ..Esm::default() }), &["esm.c", "NaN"]),
         (Box::new(filter(Filter { kernel: 4, ..Filter::default() })), &["esm.kernel", "4", "odd, 1 to 31"]),
         (Box::new(filter(Filter { kernel: 33, ..Filter::default() })), &["esm.kernel", "33"]),
@@ -73,7 +74,11 @@ fn settings_in_public_fields(gpu: &Gpu) {
             Box::new(filter(Filter { anisotropy: 0, ..Filter::default() })),
             &["esm.anisotropy", "0", "1 to 16"],
         ),
-        (Box::new(Csm { terms: 0, ..Csm::default() }), &["csm.terms", "0", "1 to 16"]),
+        (Box::new(filter(Filter { kernel: 0, ..Filter::default() })), &["esm.kernel", "0"]),
+        (Box::new(filter(summed(257))), &["esm.kernel", "257", "odd, 1 to 255"]),
+        (Box::new(Esm { c: 80.0, ..filter(summed(3)) }), &["esm.c", "80", "0 to 72"]),
+        (Box::new(Esm { epsilon: -0.01, ..Esm::default() }), &["esm.epsilon", "-0.01", "0 to 10"]),
+        (Box::new(Csm { terms: 0, ..Csm::default() }), &["csm.terms", "0", "1 to 32"]),
         (Box::new(Csm { attenuation: f32::INFINITY, ..Csm::default() }), &["csm.attenuation", "inf"]),
         (Box::new(Evsm { negative: 42.1, ..Evsm::default() }), &["evsm.negative", "42.1", "0 to 42"]),
         (
@@ -125,11 +130,11 @@ fn specs() {
     let message = |spec: &str| technique::parse(spec).unwrap_err().to_string();
     says(&message("pcss"), &["'pcss'", "hard, pcf, poisson"]);
     says(&message(""), &["unknown technique ''"]);
-    says(&message("esm.kernal=3"), &["esm", "'kernal'", "c, kernel, weights"]);
+    says(&message("esm.kernal=3"), &["esm", "'kernal'", "c, storage, classifier"]);
     says(&message("esm.kernel"), &["esm.kernel", "no '='"]);
     says(&message("esm.kernel=four"), &["esm.kernel", "four", "odd, 1 to 31"]);
     says(&message("esm.kernel=4"), &["esm.kernel", "4", "odd, 1 to 31"]);
-    says(&message("esm.c=nan"), &["esm.c", "nan", "1 to 87"]);
+    says(&message("esm.c=nan"), &["esm.c", "nan", "0 to 87"]);
     says(&message("pcf.taps=cubic"), &["pcf.taps", "cubic", "nearest | bilinear"]);
     // What was refused has not changed the setting.
     let mut esm = technique::parse("esm").unwrap();
