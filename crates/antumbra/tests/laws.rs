@@ -42,7 +42,7 @@ fn specs() -> Vec<String> {
         more("precision", "precision=16");
         more("sampling", "sampling=anisotropic");
         more("sampling", "sampling=summed,kernel=5");
-        more("classifier", "classifier=threshold");
+        more("classifier", "classifier=none");
         more("classifier", "classifier=zmax,custom=none");
         more("classifier", "storage=log32,classifier=zmax");
         more("slope_of", "slope_of=caster");

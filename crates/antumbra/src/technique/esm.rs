@@ -88,7 +88,7 @@ impl Default for Esm {
         Self {
             c: 0.0,
             storage: Storage::Powers,
-            classifier: Classifier::None,
+            classifier: Classifier::Threshold,
             epsilon: 0.1,
             offset: 1.0,
             custom: Custom::Four,
