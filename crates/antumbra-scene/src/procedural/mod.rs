@@ -8,6 +8,7 @@ mod brabec;
 mod contact;
 mod fence;
 mod growth;
+mod isosurface;
 mod layers;
 mod model;
 mod plants;
@@ -17,6 +18,7 @@ mod shapes;
 mod shed;
 mod spheres;
 mod spot;
+mod tangle;
 mod tree;
 mod trees;
 
@@ -63,6 +65,7 @@ pub fn all() -> &'static [Procedural] {
         backyard::BACKYARD,
         trees::TREES,
         brabec::BRABEC,
+        tangle::TANGLE,
     ]
 }
 
@@ -99,6 +102,8 @@ mod tests {
             ("backyard", 350_000..380_000),
             ("spheres", 12_000..12_001),
             ("layers", 0..5_000),
+            ("brabec", 6_500..7_500),
+            ("tangle", 145_000..160_000),
         ] {
             let triangles = by_name(name).map(|entry| entry.triangles);
             assert!(triangles.is_some_and(|n| sizes.contains(&n)), "{name}: {triangles:?}");
