@@ -5,6 +5,8 @@
 mod backyard;
 mod blocks;
 mod brabec;
+mod buildings;
+mod city;
 mod contact;
 mod fence;
 mod growth;
@@ -66,6 +68,7 @@ pub fn all() -> &'static [Procedural] {
         trees::TREES,
         brabec::BRABEC,
         tangle::TANGLE,
+        city::CITY,
     ]
 }
 
@@ -104,6 +107,7 @@ mod tests {
             ("layers", 0..5_000),
             ("brabec", 6_500..7_500),
             ("tangle", 145_000..160_000),
+            ("city", 2_250_000..2_350_000),
         ] {
             let triangles = by_name(name).map(|entry| entry.triangles);
             assert!(triangles.is_some_and(|n| sizes.contains(&n)), "{name}: {triangles:?}");
