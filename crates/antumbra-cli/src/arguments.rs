@@ -31,8 +31,9 @@ pub(crate) enum Command {
     Maps(Maps),
     /// List techniques with their parameters, ranges, defaults and papers
     Techniques(List),
-    /// List the built-in scenes
-    Scenes(List),
+    /// List the built-in scenes, or write one as a file
+    #[command(args_conflicts_with_subcommands = true)]
+    Scenes(Scenes),
     /// Show the graphics adapter, its features, and the fallbacks taken
     Info(List),
     /// Print a completion script for a shell
@@ -201,6 +202,31 @@ pub(crate) struct Maps {
     /// Print what was written as JSON instead of a table
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Scenes {
+    #[command(subcommand)]
+    pub(crate) action: Option<SceneAction>,
+    #[command(flatten)]
+    pub(crate) list: List,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum SceneAction {
+    /// Write a scene as one binary glTF file, with its camera and light
+    Export(Export),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Export {
+    /// The name of a built-in scene, or a .glb, .gltf or .obj file
+    pub(crate) scene: String,
+    /// The .glb file; an earlier one is replaced
+    pub(crate) output: PathBuf,
+    /// Seed of a built-in scene
+    #[arg(long, default_value_t = 1)]
+    pub(crate) seed: u64,
 }
 
 #[derive(Debug, Args)]

@@ -1,7 +1,7 @@
 //! What each subcommand does.
 
 use crate::{
-    arguments::{Arguments, Command},
+    arguments::{Arguments, Command, SceneAction},
     names,
 };
 use antumbra::SettingError;
@@ -12,6 +12,7 @@ use std::io::Write;
 mod bench;
 mod compare;
 mod curve;
+mod export;
 mod info;
 mod maps;
 mod render;
@@ -26,7 +27,10 @@ pub(crate) fn run(arguments: Arguments) -> Result<()> {
         Command::Curve(arguments) => curve::run(&arguments),
         Command::Maps(arguments) => maps::run(&arguments),
         Command::Techniques(arguments) => info::techniques(arguments.json),
-        Command::Scenes(arguments) => info::scenes(arguments.json),
+        Command::Scenes(arguments) => match arguments.action {
+            Some(SceneAction::Export(arguments)) => export::run(&arguments),
+            None => info::scenes(arguments.list.json),
+        },
         Command::Info(arguments) => info::adapter(arguments.json),
         Command::Completions { shell } => {
             let mut script = Vec::new();

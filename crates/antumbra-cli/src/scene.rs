@@ -44,7 +44,8 @@ pub(crate) fn load(arguments: &SceneArguments) -> Result<Setting> {
     Ok(Setting { name: arguments.scene.clone(), geometry: scene.flatten(), camera, light, resolution })
 }
 
-fn open(name: &str, seed: u64) -> Result<Scene> {
+/// A built-in scene or a file, not yet validated.
+pub(crate) fn open(name: &str, seed: u64) -> Result<Scene> {
     if let Some(procedural) = procedural::by_name(name) {
         return Ok(procedural.scene(seed));
     }

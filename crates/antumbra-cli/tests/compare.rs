@@ -34,6 +34,7 @@ fn main() {
         assert!(named, "{info}");
     });
     trials.add_plain("lists_and_completions", lists);
+    trials.add_plain("scenes_are_exported", export);
     trials.run();
 }
 
@@ -60,6 +61,19 @@ fn lists() {
         assert!(folder.run(&["completions", shell]).good().contains("antumbra"));
     }
     folder.run(&["completions", "sh"]).refusal(&["'sh'", "bash"]);
+}
+
+fn export() {
+    let folder = Folder::new();
+    assert!(folder.run(&["scenes", "export", "contact", "out/contact.glb"]).good().contains("contact.glb"));
+    let scene = antumbra_scene::import::load(folder.0.join("out/contact.glb")).unwrap();
+    assert_eq!(scene.flatten().triangle_count(), 17);
+    // A file is a scene too.
+    folder.run(&["scenes", "export", "out/contact.glb", "again.glb", "--seed", "3"]).good();
+    folder.run(&["scenes", "export", "contact", "contact.obj"]).refusal(&["contact.obj", ".glb"]);
+    folder.run(&["scenes", "export", "contcat", "x.glb"]).refusal(&["'contcat'", "did you mean contact?"]);
+    let names = ["again.glb", "out", "out/contact.glb"].map(std::path::PathBuf::from);
+    assert_eq!(folder.names(), names);
 }
 
 fn comparison() {

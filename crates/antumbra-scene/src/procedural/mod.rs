@@ -5,9 +5,12 @@
 mod backyard;
 mod blocks;
 mod brabec;
+mod buildings;
+mod city;
 mod contact;
 mod fence;
 mod growth;
+mod isosurface;
 mod layers;
 mod model;
 mod plants;
@@ -17,6 +20,7 @@ mod shapes;
 mod shed;
 mod spheres;
 mod spot;
+mod tangle;
 mod tree;
 mod trees;
 
@@ -63,6 +67,8 @@ pub fn all() -> &'static [Procedural] {
         backyard::BACKYARD,
         trees::TREES,
         brabec::BRABEC,
+        tangle::TANGLE,
+        city::CITY,
     ]
 }
 
@@ -99,6 +105,9 @@ mod tests {
             ("backyard", 350_000..380_000),
             ("spheres", 12_000..12_001),
             ("layers", 0..5_000),
+            ("brabec", 6_500..7_500),
+            ("tangle", 145_000..160_000),
+            ("city", 2_250_000..2_350_000),
         ] {
             let triangles = by_name(name).map(|entry| entry.triangles);
             assert!(triangles.is_some_and(|n| sizes.contains(&n)), "{name}: {triangles:?}");

@@ -61,6 +61,13 @@ impl Model {
         }
     }
 
+    /// Adds a transformed copy of another model.
+    pub(super) fn join(&mut self, other: &Self, model_from_other: Mat4) {
+        for part in &other.parts {
+            self.add(part.material, part, model_from_other);
+        }
+    }
+
     /// Puts the parts into a scene; the numbers are for [`Builder::place_all`].
     pub(super) fn finish(self, scene: &mut Builder, name: &str) -> Vec<usize> {
         self.parts
