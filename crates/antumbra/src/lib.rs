@@ -107,15 +107,17 @@ pub mod technique;
 
 pub use capabilities::Capabilities;
 pub use cascade::{Cascades, Stage};
-pub use error::{LightError, SettingError, Unsupported};
+pub use error::{LightError, MeshError, SettingError, Unsupported};
 pub use filter::{Filter, Sampling};
 pub use kernel::{Kernel, Weights};
 pub use light::{Bounds, Fit, Light, Size, View, visible_hull};
 pub use map::{
-    DEPTH_FORMAT, Lifetime, Memory, MemoryItem, NoProbe, Options, Pipelines, Probe, ShadowMap, TooManyViews,
+    CasterMesh, DEPTH_FORMAT, Lifetime, Memory, MemoryItem, NoProbe, Options, Pipelines, Probe, ShadowMap,
+    TooManyViews,
 };
 pub use parameter::{Choice, Field, Parameter};
 pub use shader::{CASTER_WGSL, ShaderText};
 pub use technique::{
-    Technique, csm::Csm, esm::Esm, evsm::Evsm, hard::Hard, lvsm::Lvsm, msm::Msm, pcf::Pcf, vsm::Vsm,
+    Technique, csm::Csm, esm::Esm, evsm::Evsm, hard::Hard, lvsm::Lvsm, msm::Msm, pcf::Pcf, spsm::Spsm,
+    vsm::Vsm,
 };

@@ -6,10 +6,11 @@ use crate::{
     light::{Size, View},
     pass::{self, Place, Slot, Step},
     shader::{self, ShaderText},
-    technique::{self, Bias, Binding, Map, Technique},
+    technique::{self, Bias, Binding, Caster, Map, Technique},
 };
 use wgpu::{RenderPass, TextureFormat};
 
+mod caster;
 mod check;
 mod memory;
 mod pipelines;
@@ -17,6 +18,8 @@ mod receiver;
 mod textures;
 mod uniforms;
 
+pub use caster::CasterMesh;
+use caster::TriangleCaster;
 pub use memory::{Lifetime, Memory, MemoryItem};
 pub use pipelines::Pipelines;
 use textures::Textures;
@@ -115,6 +118,8 @@ pub struct ShadowMap {
     textures: Textures,
     uniforms: Uniforms,
     draws: Vec<Vec<Draw>>,
+    /// For techniques whose casters are triangles.
+    triangles: Option<TriangleCaster>,
     layout: wgpu::BindGroupLayout,
     bind_group: wgpu::BindGroup,
     views: Vec<View>,
@@ -164,6 +169,14 @@ impl ShadowMap {
         let maps = technique.maps(&capabilities)?;
         check::device(device, technique, &maps, options)?;
         let pipelines = options.pipelines.clone().unwrap_or_else(|| Pipelines::new(device));
+        check::caster(technique, &maps, depth)?;
+        let triangles = match (technique.caster(), maps.first()) {
+            (Caster::Triangles(coverages), Some(map)) => {
+                let room = (options.size, options.views);
+                Some(TriangleCaster::new(device, technique, coverages, map.format, room, &pipelines))
+            }
+            _ => None,
+        };
         let compares = technique.bindings().contains(&Binding::Depth);
         let textures = Textures::new(device, &maps, options, depth, compares);
         let bias = options.bias.unwrap_or_else(|| technique.bias());
@@ -184,6 +197,7 @@ impl ShadowMap {
             textures,
             uniforms,
             draws,
+            triangles,
             layout,
             bind_group,
             views: Vec::with_capacity(options.views as usize),
@@ -202,12 +216,17 @@ impl ShadowMap {
         self.views.clear();
         self.views.extend_from_slice(views);
         self.uniforms.write(queue, views);
+        if let Some(triangles) = &self.triangles {
+            triangles.write(queue, views);
+        }
         Ok(())
     }
 
     /// Draws the casters of every view and filters what they leave. `draw` gets the view, whose
     /// [`clip_from_world`](View::clip_from_world) places the casters, and a pass with a depth
-    /// attachment of [`DEPTH_FORMAT`], cleared to 1, and no colour.
+    /// attachment of [`DEPTH_FORMAT`], cleared to 1, and no colour. If the technique's
+    /// [`caster`](Technique::caster) is [`Caster::Triangles`], the pass has its pipeline and group 0
+    /// set, and `draw`, which is called once per layer, calls [`CasterMesh::draw`].
     pub fn encode(&self, encoder: &mut wgpu::CommandEncoder, draw: impl FnMut(&View, &mut RenderPass<'_>)) {
         self.encode_probed(encoder, &mut NoProbe, draw);
     }
@@ -220,7 +239,9 @@ impl ShadowMap {
         mut draw: impl FnMut(&View, &mut RenderPass<'_>),
     ) {
         for view in 0..self.views.len() {
-            self.encode_cast(encoder, view, probe, &mut draw);
+            for layer in 0..self.triangles.as_ref().map_or(1, TriangleCaster::passes) {
+                self.encode_cast(encoder, (view, layer), probe, &mut draw);
+            }
             self.encode_view_filter(encoder, view, probe);
         }
     }
@@ -235,13 +256,15 @@ impl ShadowMap {
     fn encode_cast(
         &self,
         encoder: &mut wgpu::CommandEncoder,
-        view: usize,
+        (view, layer): (usize, usize),
         probe: &mut dyn Probe,
         draw: &mut impl FnMut(&View, &mut RenderPass<'_>),
     ) {
+        let target = self.triangles.is_some().then(|| self.textures.map_target(view, layer));
+        let target = target.map(textures::overwrite);
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("shadow cast"),
-            color_attachments: &[],
+            color_attachments: if target.is_some() { std::slice::from_ref(&target) } else { &[] },
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
                 view: self.textures.caster_target(view),
                 depth_ops: Some(wgpu::Operations {
@@ -254,7 +277,40 @@ impl ShadowMap {
             occlusion_query_set: None,
             multiview_mask: None,
         });
+        if let Some(triangles) = &self.triangles {
+            pass.set_pipeline(&triangles.pipeline);
+            pass.set_bind_group(0, triangles.group(view, layer), &[]);
+        }
         draw(&self.views[view], &mut pass);
+    }
+
+    /// For casters with holes, where the technique's caster is [`Caster::Triangles`]: the pipeline to
+    /// set in the closure of [`encode`](Self::encode) before such meshes are drawn, with the caller's
+    /// own bindings, described by `layouts`, from group 2 on.
+    ///
+    /// `wgsl` declares them and defines `caster_covers(triangle: u32, weights: vec3f) -> bool`: whether
+    /// a triangle of the mesh, counted from the first index, stops light where its corners have these
+    /// weights, 0 to 1, sum 1. It may call `caster_vertex(triangle, corner) -> u32`, the index of a
+    /// corner, and samples with explicit levels. It is asked once per texel, at the triangle's point
+    /// next to the texel's centre: holes have the map's resolution, edges of their triangles
+    /// sub-texel precision, and a texel with holes says nothing about its neighbours.
+    ///
+    /// `None` if casters are depth.
+    #[must_use]
+    pub fn cutout_caster(
+        &self,
+        device: &wgpu::Device,
+        wgsl: &str,
+        layouts: &[&wgpu::BindGroupLayout],
+    ) -> Option<wgpu::RenderPipeline> {
+        self.triangles.as_ref().map(|t| t.cutout(device, self.technique.as_ref(), wgsl, layouts))
+    }
+
+    /// The pipeline that is set when the closure of [`encode`](Self::encode) is called, to return to it.
+    /// `None` if casters are depth.
+    #[must_use]
+    pub fn triangle_caster(&self) -> Option<&wgpu::RenderPipeline> {
+        self.triangles.as_ref().map(|t| &t.pipeline)
     }
 
     fn encode_view_filter(&self, encoder: &mut wgpu::CommandEncoder, view: usize, probe: &mut dyn Probe) {
@@ -321,7 +377,9 @@ impl ShadowMap {
     /// Every texture and buffer that was allocated, mips included.
     #[must_use]
     pub fn memory(&self) -> Memory {
-        self.textures.memory(&self.uniforms)
+        let mut memory = self.textures.memory(&self.uniforms);
+        memory.items.extend(self.triangles.as_ref().map(TriangleCaster::memory));
+        memory
     }
 
     /// Which formats and paths were chosen on this device, one sentence each.

@@ -7,7 +7,7 @@ use crate::{
     capabilities::Capabilities,
     light::Size,
     shader,
-    technique::{Map, Pass, Technique},
+    technique::{Caster, Map, Pass, Technique},
 };
 
 mod blur;
@@ -56,6 +56,9 @@ pub(crate) fn levels(map: &Map, size: Size) -> u32 {
 /// All steps between casting and lighting of one view.
 pub(crate) fn plan(technique: &dyn Technique, device: &Capabilities, maps: &[Map], size: Size) -> Vec<Step> {
     let mut steps = Vec::new();
+    if technique.caster() != Caster::Depth {
+        return steps;
+    }
     for (index, map) in maps.iter().enumerate() {
         let slot = Slot::Map(index);
         let together = device.targets_per_pass(map.format);

@@ -15,12 +15,18 @@ use std::fmt::Write;
 const FILES: &[(&str, &str)] = &[
     ("caster", include_str!("shader/caster.wgsl")),
     ("chebyshev", include_str!("shader/chebyshev.wgsl")),
+    ("coverage", include_str!("shader/coverage.wgsl")),
     ("level_hardware", include_str!("shader/level/hardware.wgsl")),
     ("level_manual", include_str!("shader/level/manual.wgsl")),
     ("lookup_anisotropic", include_str!("shader/lookup/anisotropic.wgsl")),
     ("lookup_bilinear", include_str!("shader/lookup/bilinear.wgsl")),
     ("lookup_nearest", include_str!("shader/lookup/nearest.wgsl")),
     ("lookup_trilinear", include_str!("shader/lookup/trilinear.wgsl")),
+    ("packing_corners", include_str!("shader/packing/corners.wgsl")),
+    ("packing_edges", include_str!("shader/packing/edges.wgsl")),
+    ("points_map", include_str!("shader/points/map.wgsl")),
+    ("points_texel", include_str!("shader/points/texel.wgsl")),
+    ("quantizer", include_str!("shader/quantizer.wgsl")),
     ("raster", include_str!("shader/raster.wgsl")),
     ("receiver", include_str!("shader/receiver.wgsl")),
 ];
@@ -119,6 +125,10 @@ impl ShaderText {
                 let list: Vec<String> = values.iter().map(|v| format!("{v:?}")).collect();
                 (name, format!("const {name} = array<f32, {}>({});", values.len(), list.join(", ")))
             }
+            Constant::Words(name, values) => {
+                let list: Vec<String> = values.iter().map(|v| format!("{v}u")).collect();
+                (name, format!("const {name} = array<u32, {}>({});", values.len(), list.join(", ")))
+            }
         };
         let starts = [format!("const {name} "), format!("const {name}:")];
         let mut replaced = 0;
@@ -144,6 +154,7 @@ fn wgsl_type(binding: Binding) -> &'static str {
         Binding::Depth => "texture_depth_2d_array",
         Binding::Compare(_) => "sampler_comparison",
         Binding::Map(_) => "texture_2d_array<f32>",
+        Binding::Words(_) => "texture_2d_array<u32>",
         Binding::Sampler => "sampler",
     }
 }
@@ -223,6 +234,20 @@ pub(crate) fn convert(
         .replace("{targets}", &targets)
         .replace("{stores}", &stores);
     shader.text() + &glue
+}
+
+/// WGSL in front of the pass that draws triangles for [`Caster::Triangles`].
+const TRIANGLES: &str = include_str!("shader/triangles.wgsl.in");
+
+/// The pass that draws triangles. `cutout` is the caller's WGSL that leaves parts of them out.
+pub(crate) fn triangles(technique: &dyn Technique, device: &Capabilities, cutout: Option<&str>) -> String {
+    let mut shader = ShaderText::library(technique, device);
+    shader.need("coverage", &[]);
+    let text = shader.text();
+    let alone = if cutout.is_some() { "true" } else { "false" };
+    let glue = TRIANGLES.lines().filter(|line| cutout.is_some() || !line.contains("// cut-outs"));
+    let glue: String = glue.flat_map(|line| [line, "\n"]).collect();
+    format!("{}\n{text}{}", cutout.unwrap_or_default(), glue.replace("{alone}", alone))
 }
 
 #[cfg(test)]

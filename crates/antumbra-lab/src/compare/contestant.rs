@@ -1,7 +1,12 @@
 //! Techniques made ready to be drawn on one stage.
 
 use super::view;
-use crate::{gpu::Gpu, lighting::Lookup, stage::Stage, timing::Entrant};
+use crate::{
+    gpu::Gpu,
+    lighting::Lookup,
+    stage::{Casters, Stage},
+    timing::Entrant,
+};
 use antumbra::{Options, Pipelines, ShadowMap, Size, Technique, View, technique};
 use antumbra_scene::{Geometry, Light};
 use anyhow::{Context, Result};
@@ -13,13 +18,15 @@ pub struct Contestant {
     pub shadows: ShadowMap,
     /// Its lookup pass.
     pub lookup: Lookup,
+    /// How its casters are drawn.
+    pub casters: Casters,
 }
 
 impl Contestant {
     /// What a race takes.
     #[must_use]
     pub fn entrant(&self) -> Entrant<'_> {
-        Entrant { shadows: Some(&self.shadows), lookup: &self.lookup }
+        Entrant { shadows: Some((&self.shadows, &self.casters)), lookup: &self.lookup }
     }
 }
 
@@ -43,8 +50,10 @@ pub fn enter(
         let shadows = ShadowMap::new(&gpu.device, technique.as_ref(), options)
             .with_context(|| technique::spec(technique.as_ref()))?;
         let lookup = Lookup::new(gpu, stage, &shadows);
+        let casters =
+            Casters::new(gpu, stage, &shadows).with_context(|| technique::spec(technique.as_ref()))?;
         gpu.check().with_context(|| technique::spec(technique.as_ref()))?;
-        contestants.push(Contestant { shadows, lookup });
+        contestants.push(Contestant { shadows, lookup, casters });
     }
     let maps: Vec<&ShadowMap> = contestants.iter().map(|c| &c.shadows).collect();
     let view = view(stage, geometry, light, &maps)?;

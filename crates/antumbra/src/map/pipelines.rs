@@ -84,6 +84,17 @@ impl Pipelines {
             .clone()
     }
 
+    /// A pipeline that someone else compiles, unless it is there.
+    pub(super) fn keep(
+        &self,
+        shader: &str,
+        formats: &[TextureFormat],
+        compile: impl FnOnce(&wgpu::Device) -> RenderPipeline,
+    ) -> RenderPipeline {
+        let mut made = self.made.lock().unwrap_or_else(PoisonError::into_inner);
+        made.entry((shader.to_string(), formats.to_vec())).or_insert_with(|| compile(&self.device)).clone()
+    }
+
     fn compile(&self, step: &Step, formats: &[TextureFormat]) -> RenderPipeline {
         let module = self.device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some(step.label),

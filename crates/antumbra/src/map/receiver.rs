@@ -42,6 +42,10 @@ pub(super) fn group(
                 let filterable = capabilities.filters(map.texture.format());
                 (texture(TextureSampleType::Float { filterable }), BindingResource::TextureView(&map.array))
             }
+            Binding::Words(m) => {
+                let array = &textures.maps()[*m].array;
+                (texture(TextureSampleType::Uint), BindingResource::TextureView(array))
+            }
             Binding::Sampler => {
                 let kind =
                     if filterable { SamplerBindingType::Filtering } else { SamplerBindingType::NonFiltering };

@@ -34,6 +34,8 @@ pub(super) struct Textures {
     caster_targets: Vec<TextureView>,
     casters_lifetime: Lifetime,
     maps: Vec<Kept>,
+    /// The layers of the first map of every view, for casters that are triangles.
+    map_targets: Vec<TextureView>,
 }
 
 impl Textures {
@@ -72,13 +74,15 @@ impl Textures {
                     .then(|| texture(device, "blur scratch", options.size, 1, 1, map.format, usage)),
             }
         };
-        Self {
-            casters_array: all(&casters),
-            casters,
-            caster_targets,
-            casters_lifetime,
-            maps: maps.iter().map(keep).collect(),
-        }
+        let maps: Vec<Kept> = maps.iter().map(keep).collect();
+        let layers = maps.first().map_or(0, |map| map.layers * options.views);
+        let map_targets = (0..layers).map(|layer| one(&maps[0].texture, layer, 0)).collect();
+        Self { casters_array: all(&casters), casters, caster_targets, casters_lifetime, map_targets, maps }
+    }
+
+    /// A layer of the first map of a view.
+    pub(super) fn map_target(&self, view: usize, layer: usize) -> &TextureView {
+        &self.map_targets[view * self.maps[0].layers as usize + layer]
     }
 
     /// Depth attachment of a view.

@@ -1,0 +1,175 @@
+//! Sub-pixel shadow maps: every texel keeps the nearest triangle that touches it, and lookups find
+//! the shadow's edge at sub-texel precision.
+//!
+//! Casters are drawn conservatively, so that a texel without an occluder is certainly lit. A receiver
+//! is lit or shadowed by the triangle of its own texel or of the eight around it wherever that is
+//! certain; where its texel holds an occluder that is not known to cover it, triangles are missing, and
+//! the silhouette is recovered from the corners of those that were kept. Gaps between occluders that
+//! are narrower than a texel may close, and where many small triangles share a texel edges may fray.
+//!
+//! Lecocq, Marvie, Sourimant, Gautron 2014, "Sub-Pixel Shadow Mapping".
+
+use super::{Bias, Binding, Caster, Constant, Coverage, DepthSpace, Family, Map, Page, Technique};
+use crate::{
+    capabilities::Capabilities,
+    error::Unsupported,
+    parameter::{Field, Parameter, choice},
+};
+
+choice! {
+    /// How a triangle is kept in 128 bits.
+    Packing {
+        /// Three corners, 2 × 16 bits over the map; 16 bits of depth, 2 × 8 bits of slope: as published.
+        Map = "map",
+        /// Three corners as 16-bit floats relative to the texel; depth and slope likewise.
+        Texel = "texel",
+        /// Three edges, 13 bits of direction and 13 of distance relative to the texel; 24 bits of
+        /// depth, 2 × 12 bits of slope.
+        Edges = "edges",
+    }
+}
+
+impl Packing {
+    /// The parts of WGSL that it is made of.
+    pub(crate) fn parts(self) -> Vec<&'static str> {
+        match self {
+            Self::Map => vec!["packing_corners", "points_map"],
+            Self::Texel => vec!["packing_corners", "points_texel"],
+            Self::Edges => vec!["packing_edges"],
+        }
+    }
+}
+
+/// Sub-pixel shadow map. 1 lookup where that is enough, 10 per layer else, up to 3 times as many where
+/// the silhouette has to be recovered; 16 bytes per texel and layer.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Spsm {
+    /// How a triangle is kept.
+    pub packing: Packing,
+    /// 1 as published; 2 adds the triangle at each texel's centre.
+    pub layers: u32,
+    /// With 2 layers: so many slivers in the nine texels around an uncertain receiver, 1 to 10 (never),
+    /// have it ask the texels' centres instead of their silhouette.
+    pub slivers: u32,
+    /// Positions along one side of a pixel at which silhouettes are asked, 1 to 4.
+    pub samples: u32,
+}
+
+impl Default for Spsm {
+    fn default() -> Self {
+        Self { packing: Packing::Edges, layers: 2, slivers: 6, samples: 1 }
+    }
+}
+
+impl Technique for Spsm {
+    fn page(&self) -> Page {
+        Page {
+            name: "spsm",
+            title: "Sub-pixel shadow map",
+            family: Family::Geometry,
+            paper: "Lecocq, Marvie, Sourimant, Gautron 2014",
+        }
+    }
+    fn parameters(&mut self) -> Vec<Parameter<'_>> {
+        vec![
+            Parameter::new(
+                "packing",
+                "",
+                Field::Choice(&mut self.packing),
+                "how a triangle is kept in 128 bits: corners over the map, corners relative to the texel, edges",
+            ),
+            Parameter::new(
+                "layers",
+                "",
+                Field::Count(&mut self.layers, 1..=2),
+                "triangles per texel: one that touches it, as published; with 2 also the one at its centre",
+            ),
+            Parameter::new(
+                "slivers",
+                "texels",
+                Field::Count(&mut self.slivers, 1..=10),
+                "so many slivers in the 3×3 texels leave no silhouette: centres are asked instead, with 2 layers",
+            ),
+            Parameter::new(
+                "samples",
+                "",
+                Field::Count(&mut self.samples, 1..=4),
+                "positions along one side of a pixel at which silhouettes are asked",
+            ),
+        ]
+    }
+    fn maps(&self, _: &Capabilities) -> Result<Vec<Map>, Unsupported> {
+        Ok(vec![Map {
+            name: "triangles",
+            format: wgpu::TextureFormat::Rgba32Uint,
+            layers: self.layers,
+            encode: "packing_texel",
+            passes: Vec::new(),
+        }])
+    }
+    fn caster(&self) -> Caster {
+        Caster::Triangles(&[Coverage::Touched, Coverage::Centre][..self.layers.min(2) as usize])
+    }
+    fn bindings(&self) -> Vec<Binding> {
+        vec![Binding::Words(0)]
+    }
+    fn wgsl(&self) -> &'static str {
+        include_str!("spsm.wgsl")
+    }
+    fn constants(&self) -> Vec<Constant> {
+        vec![
+            Constant::Words("spsm_tangents", (0..256).map(reference::tangents).collect()),
+            Constant::Count("spsm_layers", self.layers),
+            Constant::Count("spsm_slivers", self.slivers),
+            Constant::Count("spsm_samples", self.samples),
+        ]
+    }
+    fn parts(&self, _: &Capabilities) -> Vec<&'static str> {
+        self.packing.parts()
+    }
+    fn bias(&self) -> Bias {
+        Bias { constant_texels: 0.05, slope_texels: 0.05, normal_offset_texels: 0.0 }
+    }
+    fn depth_space(&self) -> DepthSpace {
+        DepthSpace::Raster
+    }
+    fn reach_texels(&self) -> f32 {
+        0.5
+    }
+    fn boxed(&self) -> Box<dyn Technique> {
+        Box::new(*self)
+    }
+}
+
+/// The paper's steps in f64.
+pub mod reference {
+    /// Entry of the table of tangents for a set of shadowed neighbours, bit k for the k-th around a
+    /// texel from the right over the one below.
+    ///
+    /// Neighbours that do not hang together with the texel over common sides are left out [§4.2,
+    /// figure 7]: conservative rasterisation guarantees that no edge crosses the texels between. Each
+    /// run of the others around the ring that are lit is one border, and its middle the direction away
+    /// from the shadow; a run that reaches more than halfway around is two borders.
+    ///
+    /// Bits 0 to 7: the neighbours that count; 8 to 10: number of tangents, 0 if all are shadowed;
+    /// from 11 on, five bits each, their directions in 32nds of a turn, from right over down.
+    #[must_use]
+    pub fn tangents(pattern: u32) -> u32 {
+        let set = |mask: u32, k: u32| mask >> (k % 8) & 1 == 1;
+        let sides = pattern & 0b0101_0101;
+        let hangs = |k: &u32| set(pattern, *k) && (k % 2 == 0 || set(sides, k + 7) || set(sides, k + 1));
+        let kept = (0..8).filter(hangs).fold(0, |mask, k| mask | 1 << k);
+        let mut directions = Vec::new();
+        let starts = (0..8).filter(|k| !set(kept, *k) && set(kept, k + 7));
+        for start in if kept == 0 { vec![0] } else { starts.collect::<Vec<u32>>() } {
+            let length = (0..8).take_while(|i| !set(kept, start + i)).count() as u32;
+            let pieces = if length > 5 { 2 } else { 1 };
+            // In quarters of a neighbour, which is an eighth of a turn.
+            directions.extend((0..pieces).map(|i| 4 * start + 30 + 2 * length * (2 * i + 1) / pieces));
+        }
+        let count = directions.len() as u32;
+        let packed = directions.iter().enumerate().fold(0, |all, (i, d)| all | (d % 32) << (11 + 5 * i));
+        kept | count << 8 | packed
+    }
+}
