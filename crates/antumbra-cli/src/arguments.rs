@@ -23,6 +23,12 @@ pub(crate) enum Command {
     Render(Render),
     /// Time techniques and the ray tracer, without scoring
     Bench(Bench),
+    /// Plot how techniques reconstruct the step of the shadow test
+    #[command(after_help = CURVE_EXAMPLES)]
+    Curve(Curve),
+    /// Write every layer and channel of a technique's filtered maps as pictures
+    #[command(after_help = MAPS_EXAMPLES)]
+    Maps(Maps),
     /// List techniques with their parameters, ranges, defaults and papers
     Techniques(List),
     /// List the built-in scenes
@@ -46,7 +52,21 @@ const COMPARE_EXAMPLES: &str = "Examples:
 const RENDER_EXAMPLES: &str = "Examples:
   antumbra render fence --technique esm.c=60 -o out.png
   antumbra render model.glb --technique pcf.kernel=7 --show visibility -o visibility.exr
+  antumbra render fence -t esm.classifier=zmax --show classes -o failed.png
   antumbra render model.glb --technique truth -o truth.png";
+
+const CURVE_EXAMPLES: &str = "Examples:
+  antumbra curve csm esm esm.c=20 evsm --range -0.05,0.15 -o step.svg
+  antumbra curve esm csm.attenuation=0,offset=0.032 --json
+
+Figure 3 of Annen et al. 2007 (number of terms; attenuation; offset; scale):
+  antumbra curve csm.lift=none,attenuation=0,terms=1 csm.lift=none,attenuation=0,terms=4 \\
+    csm.lift=none,attenuation=0 / csm.lift=none,attenuation=0 csm.lift=none \\
+    / csm.lift=none csm.lift=offset / csm.lift=none csm.lift=scale -o figure3.svg";
+
+const MAPS_EXAMPLES: &str = "Examples:
+  antumbra maps contact --technique csm -o basis
+  antumbra maps fence --technique vsm.kernel=7 --level 2 -o moments";
 
 /// The scene and how it is seen.
 #[derive(Debug, Args)]
@@ -104,7 +124,7 @@ pub(crate) struct Render {
     #[command(flatten)]
     pub(crate) scene: SceneArguments,
     /// A technique with settings, or `truth` for ray-traced hard shadows
-    #[arg(long, default_value = "esm", value_name = "TECHNIQUE")]
+    #[arg(short, long, default_value = "esm", value_name = "TECHNIQUE")]
     pub(crate) technique: String,
     /// What to write
     #[arg(long, value_enum, default_value_t = Show::Picture)]
@@ -121,6 +141,8 @@ pub(crate) enum Show {
     Picture,
     /// Visibility, linear grey
     Visibility,
+    /// Visibility with the kinds of pixels that the technique tells apart in colour
+    Classes,
 }
 
 #[derive(Debug, Args)]
@@ -134,6 +156,47 @@ pub(crate) struct Bench {
     #[arg(long, default_value_t = 15)]
     pub(crate) rounds: u32,
     /// Print the times as JSON instead of a table
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Curve {
+    /// Techniques with settings, or all, all-comparison, all-basis; a / begins a new panel
+    #[arg(required = true, value_name = "TECHNIQUE")]
+    pub(crate) techniques: Vec<String>,
+    /// From and to how far the receiver lies behind the caster (d − z), as shares of the light's depth
+    /// range
+    #[arg(long, default_value = "-0.2,0.2", allow_hyphen_values = true, value_name = "FROM,TO")]
+    pub(crate) range: String,
+    /// Depth of the caster (z), as a share of the light's depth range
+    #[arg(long, default_value_t = 0.5, allow_hyphen_values = true, value_name = "DEPTH")]
+    pub(crate) caster: f32,
+    /// Receivers along the range
+    #[arg(long, default_value_t = 801)]
+    pub(crate) points: u32,
+    /// An .svg or .png file
+    #[arg(short, long, default_value = "curve.svg", value_name = "FILE")]
+    pub(crate) output: PathBuf,
+    /// Print the values as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Maps {
+    #[command(flatten)]
+    pub(crate) scene: SceneArguments,
+    /// A technique with settings
+    #[arg(short, long, default_value = "csm", value_name = "TECHNIQUE")]
+    pub(crate) technique: String,
+    /// Mip level, 0 the finest
+    #[arg(long, default_value_t = 0)]
+    pub(crate) level: u32,
+    /// Folder of the pictures; earlier ones there are replaced
+    #[arg(short, long, default_value = "maps", value_name = "FOLDER")]
+    pub(crate) output: PathBuf,
+    /// Print what was written as JSON instead of a table
     #[arg(long)]
     pub(crate) json: bool,
 }

@@ -11,7 +11,9 @@ use std::io::Write;
 
 mod bench;
 mod compare;
+mod curve;
 mod info;
+mod maps;
 mod render;
 mod table;
 
@@ -21,6 +23,8 @@ pub(crate) fn run(arguments: Arguments) -> Result<()> {
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Render(arguments) => render::run(&arguments),
         Command::Bench(arguments) => bench::run(&arguments),
+        Command::Curve(arguments) => curve::run(&arguments),
+        Command::Maps(arguments) => maps::run(&arguments),
         Command::Techniques(arguments) => info::techniques(arguments.json),
         Command::Scenes(arguments) => info::scenes(arguments.json),
         Command::Info(arguments) => info::adapter(arguments.json),

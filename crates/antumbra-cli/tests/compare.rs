@@ -45,9 +45,9 @@ fn lists() {
     let techniques = json(&["techniques", "--json"]);
     let names: Vec<&str> = techniques.as_array().unwrap().iter().filter_map(|t| t["name"].as_str()).collect();
     assert_eq!(names, ["hard", "pcf", "vsm", "csm", "esm", "evsm", "msm", "lvsm"]);
-    let c = &techniques[4]["parameters"][0];
-    assert_eq!((c["name"].as_str(), c["default"].as_str()), (Some("c"), Some("80")));
-    assert!(c["allowed"].is_string() && c["meaning"].is_string());
+    let terms = &techniques[3]["parameters"][0];
+    assert_eq!((terms["name"].as_str(), terms["default"].as_str()), (Some("terms"), Some("16")));
+    assert!(terms["allowed"].is_string() && terms["meaning"].is_string());
     let scenes = json(&["scenes", "--json"]);
     assert_eq!(scenes[2]["name"], "contact");
     assert_eq!(scenes[2]["triangles"], 17);
@@ -77,6 +77,7 @@ fn comparison() {
     for (name, bytes_per_texel) in [("esm", 4), ("vsm", 8), ("csm", 32)] {
         kept(technique(&results, name), bytes_per_texel);
     }
+    work(&results);
     let report = folder.0.join("out/report");
     is_complete(&report, &results);
     // A second run replaces the first.
@@ -117,6 +118,20 @@ fn kept(technique: &TechniqueResult, bytes_per_texel: u64) {
     assert_eq!(textures, [bytes_per_texel * texels], "{}", technique.name);
     assert_eq!(largest, textures.first().copied());
     assert!((textures[0]..textures[0] + 4096).contains(&memory.kept_bytes), "{}", memory.kept_bytes);
+}
+
+/// Cost in bytes, lookups and passes, of maps of 256² texels with nine levels.
+fn work(results: &Results) {
+    for (name, bytes, mips, lookups) in
+        [("hard", 4.0, false, 1), ("pcf", 4.0, false, 25), ("esm", 4.0, true, 1), ("csm", 32.0, true, 8)]
+    {
+        let work = technique(results, name).work.as_ref().unwrap();
+        let levels = if mips { 4.0 / 3.0 } else { 1.0 };
+        assert!((work.bytes_per_texel - bytes).abs() < 1e-6, "{name}: {work:?}");
+        assert!((work.bytes_per_texel_with_mips - bytes * levels).abs() < 1e-3 * bytes, "{name}: {work:?}");
+        assert_eq!((work.lookups, work.passes.is_empty()), (lookups, !mips), "{name}: {work:?}");
+        assert!(!mips || work.passes.contains(&"blur".to_string()), "{name}: {work:?}");
+    }
 }
 
 /// Page, data, table and exactly the images that the results name, each of the right size.

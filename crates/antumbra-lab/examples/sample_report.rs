@@ -10,7 +10,7 @@ use antumbra_lab::report;
 use antumbra_lab::results::{
     AdapterFacts, BoundsFacts, CameraFacts, Family, Lifetime, LightFacts, MemoryItem, MemoryResult, PassTime,
     Program, Results, SCHEMA, SceneFacts, Scores, Spread, TechniqueImages, TechniqueResult, TimeMethod,
-    TimeResult, TruthFacts, TruthImages,
+    TimeResult, TruthFacts, TruthImages, Work,
 };
 use std::collections::BTreeMap;
 use std::error::Error;
@@ -238,6 +238,7 @@ fn technique(s: &Sample, truth: &Truth, images: &mut Images) -> Result<Technique
         visibility: add("visibility", visibility.to_gray_png()?),
         error_hard: add("error-hard", heat(&truth.hard)?.to_png()?),
         error_light_space: add("error-light-space", heat(&truth.light_space)?.to_png()?),
+        classes: None,
     };
     let against = |plane: &Plane| score(&visibility, plane, &truth.shadowable);
     Ok(TechniqueResult {
@@ -253,8 +254,10 @@ fn technique(s: &Sample, truth: &Truth, images: &mut Images) -> Result<Technique
             screen_space: against(&truth.screen_space)?,
         },
         regions: BTreeMap::from([("contact".into(), contact(&visibility, truth)?)]),
+        classes: Vec::new(),
         time: time(s.passes),
         memory: memory(s.textures),
+        work: Some(work(s)),
         explain: vec![
             "Sample data: times and memory are made up.".into(),
             "Filters 32-bit floats in hardware.".into(),
@@ -312,6 +315,18 @@ fn memory(textures: &[(&str, &str, u32, u32, u64, Lifetime)]) -> MemoryResult {
     let items: Vec<MemoryItem> = textures.iter().map(item).collect();
     let sum = |kept: Lifetime| items.iter().filter(|i| i.kept == kept).map(|i| i.bytes).sum();
     MemoryResult { kept_bytes: sum(Lifetime::Kept), transient_bytes: sum(Lifetime::Transient), items }
+}
+
+fn work(s: &Sample) -> Work {
+    let kept = s.textures.iter().filter(|t| t.5 == Lifetime::Kept);
+    let bytes = kept.map(|t| t.4 as f64).sum::<f64>() / f64::from(1024 * 1024);
+    let mips = s.textures.iter().any(|t| t.3 > 1);
+    Work {
+        bytes_per_texel: if mips { 0.75 * bytes } else { bytes },
+        bytes_per_texel_with_mips: bytes,
+        lookups: 1,
+        passes: s.passes[1..s.passes.len() - 1].iter().map(|(name, _)| (*name).into()).collect(),
+    }
 }
 
 fn results(truth: &Truth, techniques: Vec<TechniqueResult>) -> Result<Results, Box<dyn Error>> {

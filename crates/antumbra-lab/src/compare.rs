@@ -1,6 +1,7 @@
 //! The comparison: one scene, its ray-traced truths, every technique scored and timed.
 
 use crate::{
+    classes::{self, ClassShare},
     gpu::Gpu,
     lighting::{Lighting, Lookup},
     metrics,
@@ -213,6 +214,7 @@ pub fn compare(gpu: &Gpu, request: &Request, progress: &dyn Progress) -> Result<
 /// What a technique's picture is worth.
 struct Rendered {
     scores: Scores,
+    classes: Vec<ClassShare>,
     regions: BTreeMap<String, metrics::Score>,
     images: TechniqueImages,
 }
@@ -255,13 +257,21 @@ fn render(
     let error = |truth: &Truth| -> Result<Vec<u8>> {
         Ok(error_heat_map(&test, &truth.plane, &truth.shadowable)?.to_png()?)
     };
+    let numbers = contestant.read_classes(gpu, stage, lighting)?;
+    let known = shadows.technique().classes();
+    let tinted = match &numbers {
+        Some(numbers) => Some(classes::picture(&test, numbers, known)?.to_png()?),
+        None => None,
+    };
     let images = TechniqueImages {
+        classes: tinted.map(|bytes| save("classes.png", bytes)),
         picture: save("picture.png", picture.to_png()?),
         visibility: save("visibility.png", test.to_gray_png()?),
         error_hard: save("error-hard.png", error(&truths.hard)?),
         error_light_space: save("error-light-space.png", error(&truths.light_space)?),
     };
-    Ok(Rendered { scores, regions, images })
+    let classes = numbers.map(|numbers| classes::shares(&numbers, known)).unwrap_or_default();
+    Ok(Rendered { scores, classes, regions, images })
 }
 
 /// Times all contestants and, for reference, shading without shadows and the standard shadow map

@@ -126,6 +126,19 @@ fn put_in_place(partial: &Path, out: &Path) -> Result<(), FileError> {
     fs::remove_dir_all(&old).map_err(failed("remove", &old))
 }
 
+/// Files that say what else is in a folder of ours, and how their schema begins.
+const INDEXES: [(&str, &str); 2] = [("results.json", "antumbra-results/"), ("maps.json", "antumbra-maps/")];
+
+/// What such a file lists, if it is one.
+fn listed(folder: &Path, (name, schema): &(&str, &str)) -> Option<Vec<String>> {
+    let index: Value = serde_json::from_slice(&fs::read(folder.join(name)).ok()?).ok()?;
+    if !index.get("schema")?.as_str()?.starts_with(schema) {
+        return None;
+    }
+    let files = index.get("files").and_then(Value::as_array).map(Vec::as_slice).unwrap_or_default();
+    Some(files.iter().filter_map(|f| f.as_str().map(String::from)).collect())
+}
+
 /// Whether [`write_folder`] may write there: if there is nothing, an empty folder, or a report of
 /// ours that nobody added to.
 ///
@@ -145,15 +158,11 @@ pub fn check_folder(out: &Path) -> Result<(), FileError> {
     if names.is_empty() {
         return Ok(());
     }
-    let text = fs::read(out.join("results.json")).unwrap_or_default();
-    let results: Value = serde_json::from_slice(&text).unwrap_or_default();
-    let schema = results.get("schema").and_then(Value::as_str).unwrap_or_default();
-    if !schema.starts_with("antumbra-results/") {
-        return foreign("it is not empty and has no results.json of this program".into());
-    }
-    let listed = results.get("files").and_then(Value::as_array);
-    let is_listed = |name: &str| listed.is_some_and(|files| files.iter().any(|f| f.as_str() == Some(name)));
-    let known = |name: &&OsString| name.to_str().is_some_and(|n| n == "results.json" || is_listed(n));
+    let Some((index, listed)) = INDEXES.iter().find_map(|index| Some((index.0, listed(out, index)?))) else {
+        let names: Vec<&str> = INDEXES.iter().map(|index| index.0).collect();
+        return foreign(format!("it is not empty and has no {} of this program", names.join(" or ")));
+    };
+    let known = |name: &&OsString| name.to_str().is_some_and(|n| n == index || listed.iter().any(|f| f == n));
     match names.iter().find(|name| !known(name)) {
         Some(name) => foreign(format!("{} in it is not part of the report", Path::new(name).display())),
         None => Ok(()),

@@ -1,5 +1,6 @@
 //! The graphics device of the lab, and reading back from it.
 
+use antumbra::Capabilities;
 use anyhow::{Context, Result, bail};
 use std::sync::{Arc, Mutex, PoisonError, mpsc};
 
@@ -17,11 +18,7 @@ pub struct Gpu {
 }
 
 /// What the library and the lab can use but do without.
-const OPTIONAL: wgpu::Features = wgpu::Features::FLOAT32_FILTERABLE
-    .union(wgpu::Features::DEPTH_CLIP_CONTROL)
-    .union(wgpu::Features::TEXTURE_FORMAT_16BIT_NORM)
-    .union(wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES)
-    .union(wgpu::Features::TIMESTAMP_QUERY);
+const OPTIONAL: wgpu::Features = Capabilities::OPTIONAL_FEATURES.union(wgpu::Features::TIMESTAMP_QUERY);
 
 impl Gpu {
     /// The adapter that wgpu prefers.
@@ -134,18 +131,31 @@ impl Gpu {
     /// # Errors
     /// As [`check`](Self::check), or if the device is lost.
     pub fn read(&self, texture: &wgpu::Texture) -> Result<Vec<u8>> {
-        let row =
-            texture.width() * texture.format().block_copy_size(None).context("format cannot be copied")?;
+        self.read_layer(texture, 0, 0)
+    }
+
+    /// All bytes of one layer and mip level of a texture, rows without padding. Waits.
+    ///
+    /// # Errors
+    /// As [`check`](Self::check), or if the device is lost.
+    pub fn read_layer(&self, texture: &wgpu::Texture, layer: u32, mip_level: u32) -> Result<Vec<u8>> {
+        let [width, height] = [texture.width(), texture.height()].map(|n| (n >> mip_level).max(1));
+        let row = width * texture.format().block_copy_size(None).context("format cannot be copied")?;
         let padded = row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
         let staging = self.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("readback"),
-            size: u64::from(padded) * u64::from(texture.height()),
+            size: u64::from(padded) * u64::from(height),
             usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
             mapped_at_creation: false,
         });
         let mut encoder = self.device.create_command_encoder(&Default::default());
         encoder.copy_texture_to_buffer(
-            texture.as_image_copy(),
+            wgpu::TexelCopyTextureInfo {
+                texture,
+                mip_level,
+                origin: wgpu::Origin3d { x: 0, y: 0, z: layer },
+                aspect: wgpu::TextureAspect::All,
+            },
             wgpu::TexelCopyBufferInfo {
                 buffer: &staging,
                 layout: wgpu::TexelCopyBufferLayout {
@@ -154,7 +164,7 @@ impl Gpu {
                     rows_per_image: None,
                 },
             },
-            wgpu::Extent3d { width: texture.width(), height: texture.height(), depth_or_array_layers: 1 },
+            wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
         );
         self.finish(encoder)?;
         let bytes = self.map(&staging)?;

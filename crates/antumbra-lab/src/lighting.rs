@@ -10,19 +10,32 @@ use anyhow::Result;
 use wgpu::TextureFormat;
 
 const FRAME: &str = include_str!("stage/frame.wgsl");
+const LOOKUP: &str = include_str!("lighting/lookup.wgsl");
+const VISIBILITY: &str = include_str!("lighting/visibility.wgsl");
+const CLASS: &str = include_str!("lighting/class.wgsl");
 
-/// The full-screen pass that asks a shadow map for the visibility of every surface.
+/// The full-screen pass that asks a shadow map about every surface.
 #[derive(Debug)]
 pub struct Lookup {
     pipeline: wgpu::RenderPipeline,
 }
 
 impl Lookup {
-    /// For one shadow map.
+    /// For the visibility in one shadow map; 1 where there is no surface.
     #[must_use]
     pub fn new(gpu: &Gpu, stage: &Stage, shadows: &ShadowMap) -> Self {
-        let user = [FRAME, include_str!("lighting/lookup.wgsl")].concat();
-        let source = shadows.wgsl(1).after(&user);
+        Self::asking(gpu, stage, shadows, VISIBILITY)
+    }
+
+    /// For the numbers of [`shares`](crate::classes::shares), if the technique has classes.
+    #[must_use]
+    pub fn classes(gpu: &Gpu, stage: &Stage, shadows: &ShadowMap) -> Option<Self> {
+        let any = !shadows.technique().classes().is_empty();
+        any.then(|| Self::asking(gpu, stage, shadows, CLASS))
+    }
+
+    fn asking(gpu: &Gpu, stage: &Stage, shadows: &ShadowMap, question: &str) -> Self {
+        let source = shadows.wgsl(1).after(&[FRAME, LOOKUP, question].concat());
         let groups = [&stage.surfaces().layout, shadows.layout()];
         Self { pipeline: fullscreen(gpu, "lookup", source, &groups, TextureFormat::R32Float) }
     }
@@ -30,7 +43,7 @@ impl Lookup {
     /// Everything lit: what the pass costs without any lookup.
     #[must_use]
     pub fn unshadowed(gpu: &Gpu, stage: &Stage) -> Self {
-        let parts = [FRAME, include_str!("lighting/lookup.wgsl"), include_str!("lighting/unshadowed.wgsl")];
+        let parts = [FRAME, LOOKUP, VISIBILITY, include_str!("lighting/unshadowed.wgsl")];
         let source = wgpu::ShaderSource::Wgsl(parts.concat().into());
         Self {
             pipeline: fullscreen(

@@ -21,6 +21,8 @@ mod table;
 mod text;
 mod viewer;
 
+pub(crate) use text::escape;
+
 const PAGE: &str = include_str!("report/page.html");
 const STYLE: &str = include_str!("report/style.css");
 const VIEWER_SCRIPT: &str = include_str!("report/viewer.js");
@@ -115,6 +117,7 @@ fn html(results: &Results, images: &BTreeMap<String, Vec<u8>>) -> Result<String,
         ("legend", viewer::legend()),
         ("table", table::scores(results)),
         ("regions", table::regions(results)),
+        ("classes", table::classes(results)),
         ("plots", plot::section(results)),
         ("time", bars::time(results)),
         ("memory", bars::memory(results)),

@@ -1,9 +1,11 @@
 //! What a comparison measured, as data: the content of `results.json`.
 //!
 //! The schema is versioned by [`SCHEMA`]. A reader checks that string first; fields are only ever
-//! added under one version. Numbers are finite: a quantity that does not exist for an image (the
+//! added under one version, and what was added later (marked so) may be missing in older files.
+//! Numbers are finite: a quantity that does not exist for an image (the
 //! leak of a picture without deep shadow, the PSNR of two equal images) is `null`.
 
+use crate::classes::ClassShare;
 use crate::files::{self, FileError};
 use crate::metrics::Score;
 use serde::{Deserialize, Serialize};
@@ -187,10 +189,16 @@ pub struct TechniqueResult {
     pub scores: Scores,
     /// Error against the light-space ideal in named parts of the picture, e.g. "contact".
     pub regions: BTreeMap<String, Score>,
+    /// Kinds of pixels that the technique tells apart. Added later.
+    #[serde(default)]
+    pub classes: Vec<ClassShare>,
     /// Cost in time.
     pub time: TimeResult,
     /// Cost in memory.
     pub memory: MemoryResult,
+    /// Cost that does not depend on the device's speed. Added later.
+    #[serde(default)]
+    pub work: Option<Work>,
     /// What the library chose and why: formats, fallbacks.
     pub explain: Vec<String>,
     /// Its images.
@@ -207,6 +215,18 @@ pub enum Family {
     Basis,
     /// Keeps triangles; reconstructs the edge at lookup.
     Geometry,
+}
+
+impl Family {
+    /// As it is written in JSON.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Comparison => "comparison",
+            Self::Basis => "basis",
+            Self::Geometry => "geometry",
+        }
+    }
 }
 
 /// Error against each truth.
@@ -315,6 +335,19 @@ pub enum Lifetime {
     Transient,
 }
 
+/// What a technique takes, whatever runs it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Work {
+    /// Bytes of textures that lookups need, for each texel of the map, without mip levels.
+    pub bytes_per_texel: f64,
+    /// The same with mip levels.
+    pub bytes_per_texel_with_mips: f64,
+    /// Texture lookups for each pixel; an interpolated one counts once.
+    pub lookups: u32,
+    /// Passes between casting and lighting, in order.
+    pub passes: Vec<String>,
+}
+
 /// Names of a technique's images.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct TechniqueImages {
@@ -326,6 +359,9 @@ pub struct TechniqueImages {
     pub error_hard: String,
     /// Signed error against the light-space ideal.
     pub error_light_space: String,
+    /// Visibility with the pixels of each class in its colour, if the technique has any. Added later.
+    #[serde(default)]
+    pub classes: Option<String>,
 }
 
 /// Why results could not be read or written.
@@ -392,6 +428,17 @@ impl Results {
             return Err(ResultsError::Schema { path: path.display().to_string(), found: found.into() });
         }
         serde_json::from_value(value).map_err(json)
+    }
+
+    /// The techniques by family, those of a family in the order they were asked for; families
+    /// without members are left out.
+    #[must_use]
+    pub fn families(&self) -> Vec<(Family, Vec<&TechniqueResult>)> {
+        [Family::Comparison, Family::Basis, Family::Geometry]
+            .into_iter()
+            .map(|family| (family, self.techniques.iter().filter(|t| t.family == family).collect()))
+            .filter(|(_, members): &(_, Vec<_>)| !members.is_empty())
+            .collect()
     }
 
     /// One row per technique under one row of headings, separated by commas [RFC 4180]; a quantity

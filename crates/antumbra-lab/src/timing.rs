@@ -64,8 +64,14 @@ impl Stopwatch {
             bytes.chunks_exact(8).filter_map(|b| b.try_into().ok()).map(u64::from_ne_bytes).collect();
         let period = f64::from(gpu.queue.get_timestamp_period()) * 1e-6;
         let mut sums: Vec<(&'static str, f64)> = Vec::new();
-        for (label, pair) in self.labels.iter().zip(stamps.chunks_exact(2)) {
-            let ms = pair[1].saturating_sub(pair[0]) as f64 * period;
+        for (i, (label, pair)) in self.labels.iter().zip(stamps.chunks_exact(2)).enumerate() {
+            // Some software drivers stamp the end of a compute pass before it has run: the next pass
+            // begins when it is done.
+            let end = match stamps.get(2 * i + 2) {
+                Some(next) if *label == "sum" && i + 1 < self.labels.len() => *next,
+                _ => pair[1],
+            };
+            let ms = end.saturating_sub(pair[0]) as f64 * period;
             match sums.iter_mut().find(|(name, _)| name == label) {
                 Some((_, sum)) => *sum += ms,
                 None => sums.push((label, ms)),

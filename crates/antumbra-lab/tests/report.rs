@@ -1,6 +1,7 @@
 //! The report as a reader finds it: complete, self-contained, safe, and never half written.
 #![allow(clippy::unwrap_used, reason = "helpers of tests fail like tests")]
 
+use antumbra_lab::classes::ClassShare;
 use antumbra_lab::files::{FileError, write_atomically};
 use antumbra_lab::metrics::score;
 use antumbra_lab::plane::{Plane, Rgba8Image};
@@ -8,7 +9,7 @@ use antumbra_lab::report::{self, ReportError};
 use antumbra_lab::results::{
     AdapterFacts, BoundsFacts, CameraFacts, Family, Lifetime, LightFacts, MemoryItem, MemoryResult, PassTime,
     Program, Results, ResultsError, SCHEMA, SceneFacts, Scores, Spread, TechniqueImages, TechniqueResult,
-    TimeMethod, TimeResult, TruthFacts, TruthImages,
+    TimeMethod, TimeResult, TruthFacts, TruthImages, Work,
 };
 use std::collections::BTreeMap;
 use std::fs;
@@ -51,6 +52,7 @@ fn technique(spec: &str, title: &str, family: Family, visibility: f32) -> Techni
         settings: BTreeMap::from([("c".into(), 80.into()), ("filter".into(), "gauss".into())]),
         scores: Scores { hard: score, light_space: score, screen_space: score },
         regions: BTreeMap::from([("contact".into(), score)]),
+        classes: Vec::new(),
         time: TimeResult {
             passes: vec![PassTime {
                 name: "lookup".into(),
@@ -79,12 +81,19 @@ fn technique(spec: &str, title: &str, family: Family, visibility: f32) -> Techni
             kept_bytes: 1 << 20,
             transient_bytes: 0,
         },
+        work: Some(Work {
+            bytes_per_texel: 4.0,
+            bytes_per_texel_with_mips: 4.0,
+            lookups: 1,
+            passes: vec!["convert".into()],
+        }),
         explain: vec!["chose depth32float".into()],
         images: TechniqueImages {
             picture: image("picture"),
             visibility: image("visibility"),
             error_hard: image("error-hard"),
             error_light_space: image("error-light-space"),
+            classes: None,
         },
     }
 }
@@ -207,6 +216,7 @@ fn hostile_strings_stay_text() {
     hostile.techniques[0].settings.insert(attack.into(), attack.into());
     hostile.techniques[0].regions = BTreeMap::from([(attack.into(), hostile.techniques[0].scores.hard)]);
     hostile.techniques[0].memory.items[0].format = attack.into();
+    hostile.techniques[0].classes = vec![ClassShare { name: attack.into(), colour: [1; 3], share: 0.5 }];
     hostile.techniques[0].time.passes[0].name = attack.into();
     hostile.truth.coverage_explained.insert(attack.into(), 3);
     hostile.command.push(attack.into());
@@ -215,6 +225,44 @@ fn hostile_strings_stay_text() {
     let page = fs::read_to_string(out.join("index.html")).unwrap();
     assert!(!page.contains("alert(1)</script>"));
     assert_eq!(page.matches("<script").count(), 2, "the page's own scripts and no other");
+}
+
+#[test]
+fn techniques_stand_with_their_family() {
+    let mut mixed = results();
+    mixed.techniques.push(technique("pcf", "Percentage-closer filtering", Family::Comparison, 0.7));
+    let families: Vec<(Family, Vec<&str>)> = mixed
+        .families()
+        .into_iter()
+        .map(|(family, members)| (family, members.into_iter().map(|t| t.name.as_str()).collect()))
+        .collect();
+    assert_eq!(families, [(Family::Comparison, vec!["hard", "pcf"]), (Family::Basis, vec!["esm"])]);
+    let folder = Folder::new("families");
+    let out = write(&mixed, &folder.0.join("report")).unwrap();
+    let page = fs::read_to_string(out.join("index.html")).unwrap();
+    let table = page.split_once("table class=\"scores").unwrap().1.split_once("</table>").unwrap().0;
+    let place = |text: &str| table.find(text).unwrap();
+    assert_eq!(table.matches("<tr class=\"family\">").count(), 2);
+    assert!(place("<code>pcf</code>") < place(">Linear basis</th>"));
+    assert!(place(">Linear basis</th>") < place("<code>esm."));
+}
+
+#[test]
+fn older_results_are_read() {
+    let folder = Folder::new("older");
+    let out = write(&results(), &folder.0.join("report")).unwrap();
+    let mut json: serde_json::Value =
+        serde_json::from_slice(&fs::read(out.join("results.json")).unwrap()).unwrap();
+    for added in ["work", "classes"] {
+        json["techniques"][0].as_object_mut().unwrap().remove(added).unwrap();
+    }
+    json["techniques"][0]["images"].as_object_mut().unwrap().remove("classes").unwrap();
+    let old = folder.0.join("old.json");
+    fs::write(&old, json.to_string()).unwrap();
+    let old = Results::read(&old).unwrap();
+    assert_eq!((old.techniques[0].work.as_ref(), old.techniques[1].work.is_some()), (None, true));
+    let rewritten = write(&old, &folder.0.join("report")).unwrap();
+    assert!(fs::read_to_string(rewritten.join("results.csv")).unwrap().contains(",,,,\r\n"));
 }
 
 #[test]
@@ -278,7 +326,7 @@ fn folders_of_others_are_refused_and_left_alone() {
     let foreign = folder.0.join("foreign");
     fs::create_dir(&foreign).unwrap();
     fs::write(foreign.join("results.json"), "{\"schema\":\"theirs/1\"}").unwrap();
-    assert!(refused(&foreign).contains("no results.json of this program"));
+    assert!(refused(&foreign).contains("no results.json or maps.json of this program"));
     let added = folder.0.join("added");
     write(&results(), &added).unwrap();
     fs::write(added.join("notes.txt"), "mine").unwrap();

@@ -1,5 +1,6 @@
 //! What GPU tests share: one device, error scopes, a test runner that can say "ignored".
 
+pub mod broken;
 pub mod image;
 
 use std::sync::OnceLock;
@@ -15,12 +16,9 @@ pub struct Gpu {
     pub info: wgpu::AdapterInfo,
 }
 
-/// Optional features that antumbra makes use of.
-pub const FEATURES: wgpu::Features = wgpu::Features::FLOAT32_FILTERABLE
-    .union(wgpu::Features::DEPTH_CLIP_CONTROL)
-    .union(wgpu::Features::TEXTURE_FORMAT_16BIT_NORM)
-    .union(wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES)
-    .union(wgpu::Features::TIMESTAMP_QUERY);
+/// Optional features that antumbra and its lab make use of.
+pub const FEATURES: wgpu::Features =
+    antumbra::Capabilities::OPTIONAL_FEATURES.union(wgpu::Features::TIMESTAMP_QUERY);
 
 /// The device that all tests of a program share; `None` if the machine has no adapter.
 #[must_use]

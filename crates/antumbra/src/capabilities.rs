@@ -12,6 +12,14 @@ pub struct Capabilities {
 }
 
 impl Capabilities {
+    /// The features that the library makes use of where a device has them, and does without
+    /// elsewhere. Request `adapter.features() & Capabilities::OPTIONAL_FEATURES` with your device;
+    /// what each is good for stands in the [table of the crate](crate#devices).
+    pub const OPTIONAL_FEATURES: Features = Features::FLOAT32_FILTERABLE
+        .union(Features::DEPTH_CLIP_CONTROL)
+        .union(Features::TEXTURE_FORMAT_16BIT_NORM)
+        .union(Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES);
+
     /// Asks a device.
     #[must_use]
     pub fn of(device: &wgpu::Device) -> Self {

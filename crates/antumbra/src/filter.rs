@@ -4,7 +4,8 @@ use crate::{
     capabilities::Capabilities,
     kernel::{Kernel, Weights},
     parameter::{Field, Parameter, choice},
-    technique::{Constant, Pass},
+    table::{MOST_SUMMED, Table},
+    technique::{Combine, Constant, Encode, Map, Pass},
 };
 
 choice! {
@@ -18,14 +19,30 @@ choice! {
         Trilinear = "trilinear",
         /// Several trilinear lookups along the longer side of the footprint.
         Anisotropic = "anisotropic",
+        /// A box in a summed-area table, as wide as the kernel or, where that is more, as the
+        /// footprint. Instead of blur and mips; 16 bytes per table and texel.
+        Summed = "summed",
     }
+}
+
+/// What a map holds, before filters act on it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Values {
+    /// Storage of a filtered texel.
+    pub format: wgpu::TextureFormat,
+    /// Array layers per view.
+    pub layers: u32,
+    /// Both ends of each channel's range, the one that needs finer steps first.
+    pub ranges: Vec<[f32; 2]>,
+    /// Bits of a value that count, for summed-area tables. 8: multiples of 1/255 of the range.
+    pub bits: u32,
 }
 
 /// Blur, mips and sampling, in the order in which they act.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Filter {
-    /// Width of the blur in texels, odd, 1 (none) to 31.
+    /// Width of the blur in texels, odd, 1 (none) to 31; of the box with [`Sampling::Summed`], to 255.
     pub kernel: u32,
     /// Shape of the blur.
     pub weights: Weights,
@@ -52,12 +69,13 @@ impl Default for Filter {
 impl Filter {
     /// The rows of these settings in a technique's parameter table.
     pub fn parameters(&mut self) -> Vec<Parameter<'_>> {
+        let widest = if self.sampling == Sampling::Summed { MOST_SUMMED } else { 31 };
         vec![
             Parameter::new(
                 "kernel",
                 "texels",
-                Field::Odd(&mut self.kernel, 1..=31),
-                "width of the blur; 1 is none",
+                Field::Odd(&mut self.kernel, 1..=widest),
+                "width of the blur, 1 is none; up to 255, and a box, with sampling=summed",
             ),
             Parameter::new("weights", "", Field::Choice(&mut self.weights), "shape of the blur"),
             Parameter::new(
@@ -76,33 +94,85 @@ impl Filter {
         ]
     }
 
-    /// What happens between casting and lighting.
+    /// The blur and mips that these settings ask for.
     #[must_use]
-    pub fn passes(&self) -> Vec<Pass> {
-        let blur = (self.kernel > 1).then(|| Pass::Blur(Kernel::new(self.weights, self.kernel, self.sigma)));
-        let mips = matches!(self.sampling, Sampling::Trilinear | Sampling::Anisotropic).then_some(Pass::Mips);
-        blur.into_iter().chain(mips).collect()
+    pub fn passes(&self, combine: Combine) -> Vec<Pass> {
+        let kernel = || Kernel::new(self.weights, self.kernel, self.sigma);
+        let blur = (self.kernel > 1).then(|| Pass::Blur(kernel(), combine));
+        let mips = matches!(self.sampling, Sampling::Trilinear | Sampling::Anisotropic);
+        blur.into_iter().chain(mips.then_some(Pass::Mips(combine))).collect()
     }
 
-    /// The WGSL files behind `lookup_filtered`, for a map of this format on this device.
+    /// A map that holds such values, with all its passes.
     #[must_use]
-    pub fn parts(&self, device: &Capabilities, format: wgpu::TextureFormat) -> Vec<&'static str> {
+    pub fn map(&self, name: &'static str, encode: Encode, values: Values, combine: Combine) -> Map {
+        let Values { format, layers, .. } = values;
+        match self.table(&values) {
+            Some(table) => Map {
+                name,
+                format: wgpu::TextureFormat::Rgba32Uint,
+                layers: layers * table.parts(),
+                encode,
+                passes: vec![Pass::Sum(table)],
+            },
+            None => Map { name, format, layers, encode, passes: self.passes(combine) },
+        }
+    }
+
+    fn table(&self, values: &Values) -> Option<Table> {
+        let ranges = || values.ranges.clone();
+        (self.sampling == Sampling::Summed).then(|| match values.bits {
+            8 => Table::bytes(ranges()),
+            bits => Table::new(ranges(), bits),
+        })
+    }
+
+    /// The WGSL files behind `lookup_filtered`, for a map of such values on this device.
+    #[must_use]
+    pub fn parts(&self, device: &Capabilities, values: &Values, combine: Combine) -> Vec<&'static str> {
         let lookup = match self.sampling {
             Sampling::Nearest => return vec!["lookup_nearest"],
             Sampling::Bilinear => "lookup_bilinear",
             Sampling::Trilinear => "lookup_trilinear",
             Sampling::Anisotropic => "lookup_anisotropic",
+            Sampling::Summed => "lookup_summed",
         };
-        vec![lookup, if device.filters(format) { "level_hardware" } else { "level_manual" }]
+        let below = match (self.table(values), combine) {
+            (Some(table), _) => table.arithmetic(),
+            (None, Combine::LogMean(_)) => "level_logarithmic",
+            (None, _) if device.filters(values.format) => "level_hardware",
+            (None, _) => "level_manual",
+        };
+        vec![lookup, below]
     }
 
     /// Compile-time settings of those files.
     #[must_use]
-    pub fn constants(&self) -> Vec<Constant> {
-        match self.sampling {
-            Sampling::Anisotropic => vec![Constant::Count("lookup_most_taps", self.anisotropy)],
-            _ => Vec::new(),
+    pub fn constants(&self, values: &Values, combine: Combine) -> Vec<Constant> {
+        if let Some(table) = self.table(values) {
+            let [low, range] = table.scale();
+            return vec![
+                Constant::Number("words_top", table.top()),
+                Constant::Count("lookup_parts", table.parts()),
+                Constant::Number("lookup_kernel", self.kernel as f32),
+                Constant::Array("lookup_low", low),
+                Constant::Array("lookup_range", range),
+            ];
         }
+        let mut constants = Vec::new();
+        if let (Combine::LogMean(c), false) = (combine, self.sampling == Sampling::Nearest) {
+            constants.push(Constant::Number("level_steepness", c));
+        }
+        if self.sampling == Sampling::Anisotropic {
+            constants.push(Constant::Count("lookup_most_taps", self.anisotropy));
+        }
+        constants
+    }
+
+    /// Texture lookups behind one `lookup_filtered` whose footprint is not stretched.
+    #[must_use]
+    pub fn lookups(&self, values: &Values) -> u32 {
+        self.table(values).map_or(1, |table| 16 * table.parts())
     }
 
     /// See [`Technique::reach_texels`](crate::Technique::reach_texels).

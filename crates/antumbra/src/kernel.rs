@@ -38,6 +38,12 @@ impl Kernel {
         Self { taps: raw.iter().map(|w| (w / sum) as f32).collect() }
     }
 
+    /// Distance from the centre in texels, and weight, of each tap.
+    pub(crate) fn offsets(&self) -> impl Iterator<Item = (f32, f32)> {
+        let centre = (self.taps.len() as f32 - 1.0) / 2.0;
+        self.taps.iter().enumerate().map(move |(i, weight)| (i as f32 - centre, *weight))
+    }
+
     /// σ in texels that makes good use of `width` taps: 0.15 · width + 0.35 (0.8 for three, 1.1 for
     /// five, 1.4 for seven), the customary rule of image libraries.
     #[must_use]

@@ -81,7 +81,8 @@
 //! Vulkan, Metal, DX12 and WebGPU (also in the browser: there is no blocking call). GL and WebGL2
 //! are refused with [`Unsupported::Backend`]: a depth texture can only be compared there. No feature
 //! is required and WebGPU's default limits are enough; a few features are used where the *device*
-//! was created with them, and [`ShadowMap::explain`] tells which path was taken:
+//! was created with them ([`Capabilities::OPTIONAL_FEATURES`] is what to ask for), and
+//! [`ShadowMap::explain`] tells which path was taken:
 //!
 //! | without | instead |
 //! | --- | --- |
@@ -103,12 +104,13 @@ mod map;
 mod parameter;
 mod pass;
 mod shader;
+mod table;
 pub mod technique;
 
 pub use capabilities::Capabilities;
 pub use cascade::{Cascades, Stage};
 pub use error::{LightError, MeshError, SettingError, Unsupported};
-pub use filter::{Filter, Sampling};
+pub use filter::{Filter, Sampling, Values};
 pub use kernel::{Kernel, Weights};
 pub use light::{Bounds, Fit, Light, Size, View, visible_hull};
 pub use map::{
@@ -117,6 +119,7 @@ pub use map::{
 };
 pub use parameter::{Choice, Field, Parameter};
 pub use shader::{CASTER_WGSL, ShaderText};
+pub use table::Table;
 pub use technique::{
     Technique, csm::Csm, esm::Esm, evsm::Evsm, hard::Hard, lvsm::Lvsm, msm::Msm, pcf::Pcf, spsm::Spsm,
     vsm::Vsm,

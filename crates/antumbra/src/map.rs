@@ -4,7 +4,7 @@ use crate::{
     capabilities::Capabilities,
     error::Unsupported,
     light::{Size, View},
-    pass::{self, Place, Slot, Step},
+    pass::{self, Slot, Step, Work},
     shader::{self, ShaderText},
     technique::{self, Bias, Binding, Caster, Map, Technique},
 };
@@ -22,6 +22,7 @@ pub use caster::CasterMesh;
 use caster::TriangleCaster;
 pub use memory::{Lifetime, Memory, MemoryItem};
 pub use pipelines::Pipelines;
+use pipelines::Run;
 use textures::Textures;
 use uniforms::Uniforms;
 
@@ -98,7 +99,9 @@ pub struct TooManyViews {
 #[derive(Debug)]
 struct Draw {
     label: &'static str,
-    pipeline: wgpu::RenderPipeline,
+    run: Run,
+    /// Workgroups, if it dispatches.
+    groups: u32,
     bind_group: wgpu::BindGroup,
     targets: Vec<wgpu::TextureView>,
 }
@@ -178,7 +181,7 @@ impl ShadowMap {
             _ => None,
         };
         let compares = technique.bindings().contains(&Binding::Depth);
-        let textures = Textures::new(device, &maps, options, depth, compares);
+        let textures = Textures::new(device, &capabilities, &maps, options, depth, compares);
         let bias = options.bias.unwrap_or_else(|| technique.bias());
         bias.check()?;
         let uniforms = Uniforms::new(device, technique, bias, options);
@@ -315,19 +318,23 @@ impl ShadowMap {
 
     fn encode_view_filter(&self, encoder: &mut wgpu::CommandEncoder, view: usize, probe: &mut dyn Probe) {
         for draw in &self.draws[view] {
-            let attachments: [_; MOST_TARGETS] =
-                std::array::from_fn(|i| draw.targets.get(i).map(textures::overwrite));
-            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                label: Some(draw.label),
-                color_attachments: &attachments[..draw.targets.len()],
-                depth_stencil_attachment: None,
-                timestamp_writes: probe.pass(draw.label, view),
-                occlusion_query_set: None,
-                multiview_mask: None,
-            });
-            pass.set_pipeline(&draw.pipeline);
-            pass.set_bind_group(0, &draw.bind_group, &[]);
-            pass.draw(0..3, 0..1);
+            match &draw.run {
+                Run::Draw(pipeline) => draw_step(encoder, draw, pipeline, probe.pass(draw.label, view)),
+                Run::Dispatch(pipeline) => {
+                    let timestamps = probe.pass(draw.label, view);
+                    let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+                        label: Some(draw.label),
+                        timestamp_writes: timestamps.map(|t| wgpu::ComputePassTimestampWrites {
+                            query_set: t.query_set,
+                            beginning_of_pass_write_index: t.beginning_of_pass_write_index,
+                            end_of_pass_write_index: t.end_of_pass_write_index,
+                        }),
+                    });
+                    pass.set_pipeline(pipeline);
+                    pass.set_bind_group(0, &draw.bind_group, &[]);
+                    pass.dispatch_workgroups(draw.groups, 1, 1);
+                }
+            }
         }
     }
 
@@ -374,6 +381,13 @@ impl ShadowMap {
         self.textures.maps().get(index).map(|map| &map.texture)
     }
 
+    /// Names of the passes between casting and lighting, in order, for each view: what
+    /// [`Probe::pass`] hears after `cast`.
+    #[must_use]
+    pub fn passes(&self) -> Vec<&'static str> {
+        self.draws.first().map(|view| view.iter().map(|draw| draw.label).collect()).unwrap_or_default()
+    }
+
     /// Every texture and buffer that was allocated, mips included.
     #[must_use]
     pub fn memory(&self) -> Memory {
@@ -394,14 +408,18 @@ impl ShadowMap {
         }
         lines.extend(self.technique.fallbacks(&self.capabilities));
         let parts = self.technique.parts(&self.capabilities);
-        for map in self.textures.maps() {
+        for (i, map) in self.textures.maps().iter().enumerate() {
             let format = map.texture.format();
-            let way = match (parts.contains(&"lookup_nearest"), self.capabilities.filters(format)) {
-                (true, _) => "read one texel at a time",
-                (false, true) => "interpolated by the sampler",
-                (false, false) => "interpolated by the shader (four loads)",
+            let way = match parts.as_slice() {
+                // Other maps than the first are not read through `lookup_filtered`.
+                _ if i > 0 => "",
+                ["lookup_summed", ..] => ", a summed-area table (sixteen loads)",
+                ["lookup_nearest", ..] => ", read one texel at a time",
+                [_, "level_logarithmic", ..] => ", interpolated as powers by the shader (four loads)",
+                [_, "level_manual", ..] => ", interpolated by the shader (four loads)",
+                _ => ", interpolated by the sampler",
             };
-            lines.push(format!("{} in {format:?}, {way}", map.name));
+            lines.push(format!("{} in {format:?}{way}", map.name));
             let together = self.capabilities.targets_per_pass(format).min(map.layers);
             if together < map.layers {
                 lines.push(format!("{} layers of {} in passes of {together}", map.layers, map.name));
@@ -417,6 +435,28 @@ impl ShadowMap {
     }
 }
 
+/// Runs a full-screen step.
+fn draw_step(
+    encoder: &mut wgpu::CommandEncoder,
+    draw: &Draw,
+    pipeline: &wgpu::RenderPipeline,
+    timestamp_writes: Option<wgpu::RenderPassTimestampWrites<'_>>,
+) {
+    let attachments: [_; MOST_TARGETS] =
+        std::array::from_fn(|i| draw.targets.get(i).map(textures::overwrite));
+    let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        label: Some(draw.label),
+        color_attachments: &attachments[..draw.targets.len()],
+        depth_stencil_attachment: None,
+        timestamp_writes,
+        occlusion_query_set: None,
+        multiview_mask: None,
+    });
+    pass.set_pipeline(pipeline);
+    pass.set_bind_group(0, &draw.bind_group, &[]);
+    pass.draw(0..3, 0..1);
+}
+
 /// Binds a step to the textures of one view.
 fn draw(
     pipelines: &Pipelines,
@@ -426,24 +466,17 @@ fn draw(
     step: &Step,
     view: u32,
 ) -> Draw {
-    let formats: Vec<TextureFormat> = step
-        .targets
-        .iter()
-        .map(|t| match t.slot {
-            Slot::Map(i) | Slot::Scratch(i) => maps[i].format,
-            Slot::Casters => DEPTH_FORMAT,
-        })
-        .collect();
-    let place = |p: &Place| textures.view(p, view);
-    let source = place(&step.source);
-    let bind_group = match step.source.slot {
-        Slot::Casters => pipelines.bind_depth(&source, uniforms.convert(view)),
-        Slot::Map(_) | Slot::Scratch(_) => pipelines.bind_texture(&source),
+    let format = |slot| match slot {
+        Slot::Map(i) | Slot::Scratch(i) => maps[i].format,
+        Slot::Casters => DEPTH_FORMAT,
     };
-    Draw {
-        label: step.label,
-        pipeline: pipelines.get(step, &formats),
-        bind_group,
-        targets: step.targets.iter().map(place).collect(),
-    }
+    let formats: Vec<TextureFormat> = step.targets.iter().map(|t| format(t.slot)).collect();
+    let pipeline = pipelines.get(step, &formats);
+    let (source, targets) = (textures.source(step, view), textures.targets(step, view));
+    let bind_group = pipelines.bind(&pipeline, step, [&source, &targets[0]], uniforms.convert(view));
+    let groups = match step.work {
+        Work::Draw => 0,
+        Work::Lanes(lanes) => lanes.div_ceil(pass::WORKGROUP),
+    };
+    Draw { label: step.label, run: pipeline.run, groups, bind_group, targets }
 }

@@ -1,17 +1,19 @@
-//! The pre-filter as a list of full-screen draws, planned on the CPU.
+//! The pre-filter as a list of full-screen steps, planned on the CPU.
 //!
-//! A [`Step`] reads one texture layer and writes one or more; [`plan`] turns what a technique asks
+//! A [`Step`] reads one texture and writes one or more layers; [`plan`] turns what a technique asks
 //! for into steps. Nothing here knows a technique by name or touches a device.
 
 use crate::{
     capabilities::Capabilities,
     light::Size,
-    shader,
-    technique::{Caster, Map, Pass, Technique},
+    technique::{Caster, Combine, Map, Pass, Technique},
 };
+use convert::Source;
 
 mod blur;
+mod convert;
 mod mips;
+mod sum;
 
 /// Which texture a [`Place`] is in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -20,11 +22,11 @@ pub(crate) enum Slot {
     Casters,
     /// Entry of `Technique::maps`; layers count from the view's first.
     Map(usize),
-    /// One layer of the size and format of that map, shared by all its blurs.
+    /// A few layers of the size and format of that map, between the two halves of a separable filter.
     Scratch(usize),
 }
 
-/// One layer and mip level of a texture.
+/// Where in a texture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) struct Place {
     pub(crate) slot: Slot,
@@ -32,15 +34,73 @@ pub(crate) struct Place {
     pub(crate) mip: u32,
 }
 
-/// A full-screen draw. Steps that share shader text and formats share a pipeline.
+/// How a step covers its targets.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) enum Work {
+    /// A full-screen triangle; one colour attachment per target.
+    Draw,
+    /// So many compute invocations, each a row or a column of one storage texture.
+    Lanes(u32),
+}
+
+/// Invocations of a workgroup, as in the WGSL of compute steps.
+pub(crate) const WORKGROUP: u32 = 64;
+
+/// One pass over the texels. Steps that share shader text and formats share a pipeline.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Step {
-    /// `convert`, `blur` or `mips`: also the name under which it is timed.
+    /// `convert`, `blur`, `mips` or `sum`: also the name under which it is timed.
     pub(crate) label: &'static str,
-    /// A whole WGSL module with `vertex` and `fragment`.
+    /// A whole WGSL module with `vertex` and `fragment`, or with `compute`.
     pub(crate) shader: String,
+    pub(crate) work: Work,
+    /// Layers from here on are bound as one array; the casters' depth is bound alone.
     pub(crate) source: Place,
+    pub(crate) source_layers: u32,
     pub(crate) targets: Vec<Place>,
+}
+
+/// A run of layers that one step can write.
+#[derive(Debug, Clone, Copy)]
+struct Run {
+    map: usize,
+    first: u32,
+    count: u32,
+}
+
+impl Run {
+    /// Those layers of the map.
+    fn kept(self, mip: u32) -> impl Iterator<Item = Place> {
+        (self.first..self.first + self.count).map(move |layer| Place {
+            slot: Slot::Map(self.map),
+            layer,
+            mip,
+        })
+    }
+
+    /// Runs of at most so many layers, and how many layers come before each.
+    fn parts(self, most: u32) -> impl Iterator<Item = (u32, Self)> {
+        (0..self.count).step_by(most as usize).map(move |skipped| {
+            let count = most.min(self.count - skipped);
+            (skipped, Self { first: self.first + skipped, count, ..self })
+        })
+    }
+
+    /// The first layers of its scratch texture.
+    fn scratch(self) -> impl Iterator<Item = Place> {
+        (0..self.count).map(move |layer| Place { slot: Slot::Scratch(self.map), layer, mip: 0 })
+    }
+
+    fn step(
+        self,
+        label: &'static str,
+        shader: String,
+        from: Place,
+        targets: impl Iterator<Item = Place>,
+    ) -> Step {
+        let targets = targets.take(self.count as usize).collect();
+        Step { label, shader, work: Work::Draw, source: from, source_layers: self.count, targets }
+    }
 }
 
 /// Mip levels of a full chain.
@@ -50,7 +110,23 @@ pub(crate) fn mip_levels(size: Size) -> u32 {
 
 /// Mip levels that a map keeps.
 pub(crate) fn levels(map: &Map, size: Size) -> u32 {
-    if map.passes.contains(&Pass::Mips) { mip_levels(size) } else { 1 }
+    let has_mips = map.passes.iter().any(|p| matches!(p, Pass::Mips(_)));
+    if has_mips { mip_levels(size) } else { 1 }
+}
+
+/// Layers that a step over such a map writes at most.
+fn together(map: &Map, device: &Capabilities) -> u32 {
+    device.targets_per_pass(map.format).min(map.layers)
+}
+
+/// Layers of scratch that a map needs.
+pub(crate) fn scratch_layers(map: &Map, device: &Capabilities) -> u32 {
+    let needs = |pass: &Pass| match pass {
+        Pass::Blur(..) => together(map, device),
+        Pass::Sum(_) => 1,
+        Pass::Mips(_) => 0,
+    };
+    map.passes.iter().map(needs).max().unwrap_or(0)
 }
 
 /// All steps between casting and lighting of one view.
@@ -60,23 +136,57 @@ pub(crate) fn plan(technique: &dyn Technique, device: &Capabilities, maps: &[Map
         return steps;
     }
     for (index, map) in maps.iter().enumerate() {
-        let slot = Slot::Map(index);
-        let together = device.targets_per_pass(map.format);
-        for first in (0..map.layers).step_by(together as usize) {
-            let count = together.min(map.layers - first);
-            steps.push(Step {
-                label: "convert",
-                shader: shader::convert(technique, device, map, first, count),
-                source: Place { slot: Slot::Casters, layer: 0, mip: 0 },
-                targets: (first..first + count).map(|layer| Place { slot, layer, mip: 0 }).collect(),
-            });
+        let source = Source::new(technique, device, map);
+        if let Some(table) = map.passes.iter().find_map(|p| if let Pass::Sum(t) = p { Some(t) } else { None })
+        {
+            steps.extend(sum::steps(&source, table, index, map.layers, size));
+            continue;
         }
-        for pass in &map.passes {
-            match pass {
-                Pass::Blur(kernel) => steps.extend(blur::steps(kernel, index, map.layers)),
-                Pass::Mips => steps.extend(mips::steps(slot, map.layers, mip_levels(size))),
-            }
+        let together = together(map, device);
+        for first in (0..map.layers).step_by(together as usize) {
+            let run = Run { map: index, first, count: together.min(map.layers - first) };
+            steps.extend(run_steps(&source, map, run, size));
         }
     }
     steps
+}
+
+/// Converts and filters a run of layers.
+fn run_steps(source: &Source, map: &Map, run: Run, size: Size) -> Vec<Step> {
+    let mut steps = Vec::new();
+    let mut passes = map.passes.iter().peekable();
+    // Rows of a blur that comes first take encoded depths as they need them: two passes instead of
+    // three, and no rounding in between.
+    match passes.peek() {
+        Some(Pass::Blur(kernel, combine)) if source.is_cheap() => {
+            steps.push(source.rows(kernel, *combine, run));
+            steps.extend(blur::columns(kernel, *combine, run));
+            passes.next();
+        }
+        _ => steps.push(source.plain(run)),
+    }
+    for pass in passes {
+        match pass {
+            Pass::Blur(kernel, combine) => steps.extend(blur::steps(kernel, *combine, run)),
+            Pass::Mips(combine) => steps.extend(mips::steps(*combine, run, mip_levels(size))),
+            Pass::Sum(_) => {}
+        }
+    }
+    steps
+}
+
+/// WGSL of a way to put texels together.
+fn combine(how: Combine) -> String {
+    match how {
+        Combine::Mean => include_str!("pass/combine/mean.wgsl").into(),
+        Combine::Greatest => include_str!("pass/combine/greatest.wgsl").into(),
+        Combine::LogMean(c) => {
+            include_str!("pass/combine/log_mean.wgsl").replace(": f32 = 80.0", &format!(": f32 = {c:?}"))
+        }
+    }
+}
+
+/// Members of the fragment shader's output, one per layer of a run.
+fn targets(count: u32) -> String {
+    (0..count).map(|i| format!("    @location({i}) layer_{i}: vec4f,\n")).collect()
 }

@@ -17,10 +17,12 @@ const FILES: &[(&str, &str)] = &[
     ("chebyshev", include_str!("shader/chebyshev.wgsl")),
     ("coverage", include_str!("shader/coverage.wgsl")),
     ("level_hardware", include_str!("shader/level/hardware.wgsl")),
+    ("level_logarithmic", include_str!("shader/level/logarithmic.wgsl")),
     ("level_manual", include_str!("shader/level/manual.wgsl")),
     ("lookup_anisotropic", include_str!("shader/lookup/anisotropic.wgsl")),
     ("lookup_bilinear", include_str!("shader/lookup/bilinear.wgsl")),
     ("lookup_nearest", include_str!("shader/lookup/nearest.wgsl")),
+    ("lookup_summed", include_str!("shader/lookup/summed.wgsl")),
     ("lookup_trilinear", include_str!("shader/lookup/trilinear.wgsl")),
     ("packing_corners", include_str!("shader/packing/corners.wgsl")),
     ("packing_edges", include_str!("shader/packing/edges.wgsl")),
@@ -29,6 +31,9 @@ const FILES: &[(&str, &str)] = &[
     ("quantizer", include_str!("shader/quantizer.wgsl")),
     ("raster", include_str!("shader/raster.wgsl")),
     ("receiver", include_str!("shader/receiver.wgsl")),
+    ("words_1", include_str!("shader/words/1.wgsl")),
+    ("words_2", include_str!("shader/words/2.wgsl")),
+    ("words_4", include_str!("shader/words/4.wgsl")),
 ];
 
 /// WGSL for casters: `caster_pancaked(clip_from_world, position) -> vec4f`, for devices without
@@ -121,6 +126,7 @@ impl ShaderText {
     fn replace(&mut self, constant: &Constant) {
         let (name, declaration) = match constant {
             Constant::Count(name, n) => (name, format!("const {name}: u32 = {n}u;")),
+            Constant::Number(name, x) => (name, format!("const {name}: f32 = {x:?};")),
             Constant::Array(name, values) => {
                 let list: Vec<String> = values.iter().map(|v| format!("{v:?}")).collect();
                 (name, format!("const {name} = array<f32, {}>({});", values.len(), list.join(", ")))
@@ -149,12 +155,12 @@ impl ShaderText {
 }
 
 /// WGSL type of a binding.
-fn wgsl_type(binding: Binding) -> &'static str {
+fn wgsl_type(binding: Binding, maps: &[Map]) -> &'static str {
     match binding {
         Binding::Depth => "texture_depth_2d_array",
         Binding::Compare(_) => "sampler_comparison",
+        Binding::Map(i) if maps.get(i).is_some_and(Map::holds_integers) => "texture_2d_array<u32>",
         Binding::Map(_) => "texture_2d_array<f32>",
-        Binding::Words(_) => "texture_2d_array<u32>",
         Binding::Sampler => "sampler",
     }
 }
@@ -178,12 +184,13 @@ pub(crate) fn receiver(
     }
     let _ = writeln!(glue, "}}\n@group({group}) @binding(0) var<uniform> shadow: ShadowUniforms;");
     let mut arguments = String::new();
+    let maps = technique.maps(device).unwrap_or_default();
     for (i, binding) in technique.bindings().into_iter().enumerate() {
         let _ = writeln!(
             glue,
             "@group({group}) @binding({}) var shadow_binding_{i}: {};",
             i + 1,
-            wgsl_type(binding)
+            wgsl_type(binding, &maps)
         );
         let _ = write!(arguments, "shadow_binding_{i}, ");
     }
@@ -197,43 +204,29 @@ pub(crate) fn receiver(
             "1.0",
         ),
     };
-    let _ =
-        write!(
-        glue,
-        "{}",
-        include_str!("shader/visibility.wgsl.in")
+    let mut function = |kind: &str, result: &str, outside: &str| {
+        let call =
+            format!("{name}_{kind}({arguments}uv, view, depth, plane, gradient_x, gradient_y{settings})");
+        glue += &include_str!("shader/visibility.wgsl.in")
+            .replace("{kind}", kind)
+            .replace("{result}", result)
+            .replace("{outside}", outside)
             .replace("{depth}", depth)
             .replace("{slopes}", slopes)
             .replace("{scale}", scale)
-            .replace("{call}", &format!(
-                "{name}_visibility({arguments}uv, view, depth, plane, gradient_x, gradient_y{settings})"
-            ))
-    );
+            .replace("{call}", &call);
+    };
+    function("visibility", "f32", "1.0");
+    if !technique.classes().is_empty() {
+        function("class", "u32", "0u");
+    }
     shader.push("shadow_visibility", &glue);
     shader
 }
 
-/// Full-screen pass that encodes the casters' depth into layers `first..first + count` of a map.
-pub(crate) fn convert(
-    technique: &dyn Technique,
-    device: &Capabilities,
-    map: &Map,
-    first: u32,
-    count: u32,
-) -> String {
-    let shader = ShaderText::library(technique, device);
-    let uniforms = technique.uniforms();
-    let members: String = uniforms.iter().map(|(name, _)| format!(", {name}: f32")).collect();
-    let settings: String = uniforms.iter().map(|(name, _)| format!(", convert.{name}")).collect();
-    let targets: String = (0..count).map(|i| format!("    @location({i}) layer_{i}: vec4f,\n")).collect();
-    let stores: String = (0..count)
-        .map(|i| format!("    targets.layer_{i} = {}(depths, {}u{settings});\n", map.encode, first + i))
-        .collect();
-    let glue = include_str!("pass/convert.wgsl.in")
-        .replace("{members}", &members)
-        .replace("{targets}", &targets)
-        .replace("{stores}", &stores);
-    shader.text() + &glue
+/// Text of a shared file.
+pub(crate) fn file(stem: &str) -> &'static str {
+    FILES.iter().find(|(name, _)| *name == stem).map_or("", |(_, text)| text)
 }
 
 /// WGSL in front of the pass that draws triangles for [`Caster::Triangles`].

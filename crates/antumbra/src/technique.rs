@@ -10,6 +10,7 @@ use crate::{
     error::{SettingError, Unsupported},
     kernel::Kernel,
     parameter::Parameter,
+    table::Table,
 };
 use std::fmt::Debug;
 
@@ -78,25 +79,55 @@ pub enum Coverage {
 pub struct Map {
     /// Name in memory listings.
     pub name: &'static str,
-    /// Storage; must be a colour format that can be rendered to.
+    /// Storage; must be a colour format that can be rendered to, or, for summed-area tables, one
+    /// that compute shaders can store.
     pub format: wgpu::TextureFormat,
     /// Array layers per view.
     pub layers: u32,
-    /// WGSL function `(depths: mat3x3f, layer: u32, settings…) -> vec4f` that makes layer `layer`
-    /// from the linear depths of a texel and its neighbours: `depths[1][1]` is the texel itself,
-    /// `depths[1 + dx][1 + dy]` its neighbour. What is not read is not fetched.
-    pub encode: &'static str,
+    /// What makes texels from depth.
+    pub encode: Encode,
     /// What happens between casting and lighting, in order.
     pub passes: Vec<Pass>,
+}
+
+impl Map {
+    /// Whether shaders read whole numbers from it.
+    pub(crate) fn holds_integers(&self) -> bool {
+        self.format.sample_type(None, None) == Some(wgpu::TextureSampleType::Uint)
+    }
+}
+
+/// The WGSL function that makes layer `layer` of a [`Map`] from linear depth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Encode {
+    /// `(depth: f32, layer: u32, settings…) -> vec4f`: a texel depends on its own depth alone. A blur
+    /// that follows runs its rows on the encoded depths, without storing them first.
+    Texel(&'static str),
+    /// `(depths: mat3x3f, layer: u32, settings…) -> vec4f`: `depths[1][1]` is the texel itself,
+    /// `depths[1 + dx][1 + dy]` its neighbour. What is not read is not fetched.
+    Neighbours(&'static str),
 }
 
 /// A step of the pre-filter.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Pass {
     /// Separable convolution of every layer, edge texels repeated.
-    Blur(Kernel),
-    /// The full mip chain by 2×2 means.
-    Mips,
+    Blur(Kernel, Combine),
+    /// The full mip chain, each level from 2×2 texels of the one above.
+    Mips(Combine),
+    /// A summed-area table in whole numbers: no other pass beside it.
+    Sum(Table),
+}
+
+/// How a filter puts texels together.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Combine {
+    /// Weighted mean.
+    Mean,
+    /// The greatest of all whose weight is not zero.
+    Greatest,
+    /// 1/c · log of the weighted mean of e^(c·texel): filters logarithms as if they were the powers.
+    LogMean(f32),
 }
 
 /// A texture or sampler that the technique's WGSL function takes, in parameter order.
@@ -106,11 +137,9 @@ pub enum Binding {
     Depth,
     /// `sampler_comparison`, less-or-equal: one texel, or four with bilinear weights.
     Compare(wgpu::FilterMode),
-    /// `texture_2d_array<f32>`: entry of [`Technique::maps`]; view `v` starts at layer
-    /// `v · layers`.
+    /// Entry of [`Technique::maps`]; view `v` starts at layer `v · layers`. A `LookupMap`:
+    /// `texture_2d_array<f32>`, or `<u32>` for summed-area tables.
     Map(usize),
-    /// `texture_2d_array<u32>`: entry of [`Technique::maps`] whose format holds integers.
-    Words(usize),
     /// `sampler` for the maps: clamped, linear where the device can filter them.
     Sampler,
 }
@@ -124,10 +153,21 @@ pub type Uniform = (&'static str, f32);
 pub enum Constant {
     /// `const NAME: u32 = …;`
     Count(&'static str, u32),
+    /// `const NAME: f32 = …;`
+    Number(&'static str, f32),
     /// `const NAME = array<f32, n>(…);`
     Array(&'static str, Vec<f32>),
     /// `const NAME = array<u32, n>(…);`
     Words(&'static str, Vec<u32>),
+}
+
+/// A kind of pixel that a technique tells apart, for debug views.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Class {
+    /// What such pixels are.
+    pub name: &'static str,
+    /// Their colour in debug views, sRGB.
+    pub colour: [u8; 3],
 }
 
 /// Receiver bias: how far the receiver's depth is pulled towards the light before it is compared.
@@ -218,6 +258,12 @@ pub trait Technique: Debug + Send + Sync {
     fn parts(&self, _device: &Capabilities) -> Vec<&'static str> {
         Vec::new()
     }
+    /// Kinds of pixels that it tells apart. If there are any, its WGSL also defines `x_class`, with
+    /// the arguments of `x_visibility`, which returns 0 (none of them) or 1 + the index here, and
+    /// [`ShadowMap::wgsl`](crate::ShadowMap::wgsl) gives `shadow_class`.
+    fn classes(&self) -> &'static [Class] {
+        &[]
+    }
     /// The bias that it needs by default.
     fn bias(&self) -> Bias {
         Bias::NONE
@@ -234,6 +280,14 @@ pub trait Technique: Debug + Send + Sync {
     fn ripple(&self) -> f32 {
         0.0
     }
+    /// The stored value that stands for zero in entry `map` of [`maps`](Self::maps), for debug views:
+    /// ½ where signed numbers are kept in an unsigned format.
+    fn stored_zero(&self, _map: usize) -> f32 {
+        0.0
+    }
+    /// Texture lookups of its visibility function for a pixel that its filters do not stretch; an
+    /// interpolated one counts once. What a pixel costs on hardware that is bound by them.
+    fn lookups(&self) -> u32;
     /// A copy behind a pointer.
     fn boxed(&self) -> Box<dyn Technique>;
 }

@@ -55,7 +55,7 @@ pub(crate) fn run(arguments: &Bench) -> Result<()> {
         writeln!(out, "{}", serde_json::to_string_pretty(&all)?)?;
         return Ok(());
     }
-    const PASSES: [&str; 6] = ["cast", "convert", "blur", "mips", "surfaces", "lookup"];
+    const PASSES: [&str; 7] = ["cast", "convert", "blur", "mips", "sum", "surfaces", "lookup"];
     let rows: Vec<Vec<String>> = names
         .zip(&times)
         .map(|(name, time)| {
@@ -73,7 +73,7 @@ pub(crate) fn run(arguments: &Bench) -> Result<()> {
         arguments.rounds
     )?;
     let header =
-        ["technique", "cast", "convert", "blur", "mips", "surfaces", "lookup", "frame", "min", "max"];
+        ["technique", "cast", "convert", "blur", "mips", "sum", "surfaces", "lookup", "frame", "min", "max"];
     table::print(out, &header, &rows)?;
     writeln!(out, "ray-traced hard truth, acceleration structure included: {truth:.2} s")?;
     Ok(())

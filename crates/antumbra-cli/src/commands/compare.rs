@@ -7,7 +7,7 @@ use antumbra_lab::{
     files,
     gpu::Gpu,
     report,
-    results::Results,
+    results::{Results, TechniqueResult},
 };
 use anyhow::{Result, bail};
 use std::io::{self, Write};
@@ -86,25 +86,30 @@ fn print(out: &mut impl Write, results: &Results) -> Result<()> {
         100.0 * truth.coverage_agreement,
     )?;
     let percent = |v: Option<f64>| v.map_or("-".into(), |v| format!("{:.2}", 100.0 * v));
-    let rows: Vec<Vec<String>> = results
-        .techniques
-        .iter()
-        .map(|t| {
-            let (ideal, hard) = (&t.scores.light_space, &t.scores.hard);
-            vec![
-                t.spec.clone(),
-                format!("{:.4}", ideal.rmse),
-                percent(ideal.leak),
-                percent(ideal.over_darkening),
-                percent(hard.acne),
-                percent(Some(hard.pixel_match)),
-                format!("{:.1}", t.time.frame.median_ms),
-                t.time.frame_ratio_to_hard.map_or("-".into(), |r| format!("{r:.2}")),
-                t.time.lookup_ratio_to_hard.map_or("-".into(), |r| format!("{r:.2}")),
-                format!("{:.1}", t.memory.kept_bytes as f64 / (1024.0 * 1024.0)),
-            ]
-        })
-        .collect();
+    let work = |value: Option<f64>| value.map_or("-".into(), |v| v.to_string());
+    let row = |t: &TechniqueResult| {
+        let (ideal, hard) = (&t.scores.light_space, &t.scores.hard);
+        vec![
+            t.spec.clone(),
+            format!("{:.4}", ideal.rmse),
+            percent(ideal.leak),
+            percent(ideal.over_darkening),
+            percent(hard.acne),
+            percent(Some(hard.pixel_match)),
+            format!("{:.1}", t.time.frame.median_ms),
+            t.time.frame_ratio_to_hard.map_or("-".into(), |r| format!("{r:.2}")),
+            t.time.lookup_ratio_to_hard.map_or("-".into(), |r| format!("{r:.2}")),
+            format!("{:.1}", t.memory.kept_bytes as f64 / (1024.0 * 1024.0)),
+            work(t.work.as_ref().map(|w| w.bytes_per_texel)),
+            work(t.work.as_ref().map(|w| w.lookups.into())),
+            work(t.work.as_ref().map(|w| w.passes.len() as f64)),
+        ]
+    };
+    let mut rows: Vec<Vec<String>> = Vec::new();
+    for (family, members) in results.families() {
+        rows.push(vec![format!("- {}", family.name())]);
+        rows.extend(members.into_iter().map(row));
+    }
     table::print(
         out,
         &[
@@ -118,9 +123,23 @@ fn print(out: &mut impl Write, results: &Results) -> Result<()> {
             "× hard",
             "lookup × hard",
             "MiB",
+            "B/texel",
+            "lookups",
+            "passes",
         ],
         &rows,
     )?;
+    for technique in &results.techniques {
+        for class in &technique.classes {
+            writeln!(
+                out,
+                "{}: {} in {:.2} % of the pixels that see geometry",
+                technique.spec,
+                class.name,
+                100.0 * class.share
+            )?;
+        }
+    }
     writeln!(
         out,
         "no shadow at all matches {:.2} % of shadowable pixels",

@@ -4,7 +4,16 @@ use crate::{
     arguments::{Render, Show},
     scene,
 };
-use antumbra_lab::{compare, files, gpu::Gpu, lighting::Lighting, plane::Plane, stage::Stage};
+use antumbra::technique;
+use antumbra_lab::{
+    classes::{self, ClassShare},
+    compare::{self, Contestant},
+    files,
+    gpu::Gpu,
+    lighting::Lighting,
+    plane::Plane,
+    stage::Stage,
+};
 use antumbra_truth::{CameraRays, Tracer};
 use anyhow::{Context, Result, bail};
 use std::io::{self, Write};
@@ -13,7 +22,9 @@ pub(crate) fn run(arguments: &Render) -> Result<()> {
     let extension = arguments.output.extension().and_then(|e| e.to_str()).unwrap_or_default().to_lowercase();
     match (extension.as_str(), arguments.show) {
         ("png", _) | ("exr", Show::Visibility) => {}
-        ("exr", Show::Picture) => bail!("EXR holds raw visibility: add --show visibility, or write a .png"),
+        ("exr", Show::Picture | Show::Classes) => {
+            bail!("EXR holds raw visibility: add --show visibility, or write a .png")
+        }
         _ => bail!("{}: the output must end in .png or .exr", arguments.output.display()),
     }
     scene::check(&arguments.scene)?;
@@ -24,6 +35,9 @@ pub(crate) fn run(arguments: &Render) -> Result<()> {
     };
     if techniques.len() > 1 {
         bail!("--technique {}: render takes one technique", arguments.technique);
+    }
+    if arguments.show == Show::Classes && techniques.iter().all(|t| t.classes().is_empty()) {
+        bail!("--show classes: {} tells no kinds of pixels apart", arguments.technique);
     }
     let setting = scene::load(&arguments.scene)?;
     let gpu = Gpu::new()?;
@@ -53,12 +67,39 @@ pub(crate) fn run(arguments: &Render) -> Result<()> {
     }
     lighting.encode_picture(&mut encoder, &stage);
     gpu.finish(encoder)?;
+    let mut shares = Vec::new();
     let bytes = match (extension.as_str(), arguments.show) {
         ("exr", _) => lighting.read_visibility(&gpu)?.to_exr()?,
         (_, Show::Visibility) => lighting.read_visibility(&gpu)?.to_gray_png()?,
         (_, Show::Picture) => lighting.read_picture(&gpu)?.to_png()?,
+        (_, Show::Classes) => {
+            let contestant = contestants.first().context("no technique was named")?;
+            let (bytes, counted) = tinted(&gpu, &stage, &lighting, contestant)?;
+            shares = counted;
+            bytes
+        }
     };
     files::write_atomically(&arguments.output, &bytes).context("nothing was written")?;
-    writeln!(io::stdout(), "{}", arguments.output.display())?;
+    let out = &mut io::stdout();
+    writeln!(out, "{}", arguments.output.display())?;
+    for ClassShare { name, share, .. } in shares {
+        writeln!(out, "{name}: {:.2} % of the pixels that see geometry", 100.0 * share)?;
+    }
     Ok(())
+}
+
+/// Visibility with classes in colour, and their shares. The visibility buffer is filled.
+fn tinted(
+    gpu: &Gpu,
+    stage: &Stage,
+    lighting: &Lighting,
+    contestant: &Contestant,
+) -> Result<(Vec<u8>, Vec<ClassShare>)> {
+    let technique = contestant.shadows.technique();
+    let visibility = lighting.read_visibility(gpu)?;
+    let numbers = contestant
+        .read_classes(gpu, stage, lighting)?
+        .with_context(|| format!("{} has no classes", technique::spec(technique)))?;
+    let picture = classes::picture(&visibility, &numbers, technique.classes())?;
+    Ok((picture.to_png()?, classes::shares(&numbers, technique.classes())))
 }

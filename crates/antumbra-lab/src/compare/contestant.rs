@@ -3,7 +3,8 @@
 use super::view;
 use crate::{
     gpu::Gpu,
-    lighting::Lookup,
+    lighting::{Lighting, Lookup},
+    plane::Plane,
     stage::{Casters, Stage},
     timing::Entrant,
 };
@@ -20,9 +21,24 @@ pub struct Contestant {
     pub lookup: Lookup,
     /// How its casters are drawn.
     pub casters: Casters,
+    /// The pass that asks for classes, if it has any.
+    pub classes: Option<Lookup>,
 }
 
 impl Contestant {
+    /// Class of every pixel, as [`shares`](crate::classes::shares) takes them, if the technique has
+    /// any. Its maps and the stage's surfaces are drawn; overwrites the visibility buffer.
+    ///
+    /// # Errors
+    /// If the device is lost.
+    pub fn read_classes(&self, gpu: &Gpu, stage: &Stage, lighting: &Lighting) -> Result<Option<Plane>> {
+        let Some(lookup) = &self.classes else { return Ok(None) };
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        lighting.encode_lookup(&mut encoder, stage, lookup, Some(&self.shadows), None);
+        gpu.finish(encoder)?;
+        lighting.read_visibility(gpu).map(Some)
+    }
+
     /// What a race takes.
     #[must_use]
     pub fn entrant(&self) -> Entrant<'_> {
@@ -52,8 +68,9 @@ pub fn enter(
         let lookup = Lookup::new(gpu, stage, &shadows);
         let casters =
             Casters::new(gpu, stage, &shadows).with_context(|| technique::spec(technique.as_ref()))?;
+        let classes = Lookup::classes(gpu, stage, &shadows);
         gpu.check().with_context(|| technique::spec(technique.as_ref()))?;
-        contestants.push(Contestant { shadows, lookup, casters });
+        contestants.push(Contestant { shadows, lookup, casters, classes });
     }
     let maps: Vec<&ShadowMap> = contestants.iter().map(|c| &c.shadows).collect();
     let view = view(stage, geometry, light, &maps)?;

@@ -5,7 +5,7 @@ use crate::{
     gpu::Gpu,
     results::{
         AdapterFacts, BoundsFacts, CameraFacts, Family, Lifetime, LightFacts, MemoryItem, MemoryResult,
-        SceneFacts, TechniqueResult, TimeResult,
+        SceneFacts, TechniqueResult, TimeResult, Work,
     },
 };
 use antumbra::{Memory, ShadowMap, technique};
@@ -17,7 +17,7 @@ pub(super) fn technique(shadows: &ShadowMap, rendered: Rendered, time: TimeResul
     let page = shadows.technique().page();
     let mut technique = shadows.technique().boxed();
     let settings = technique.parameters().iter().map(|p| (p.name.to_string(), value(&p.value()))).collect();
-    let Rendered { scores, regions, images } = rendered;
+    let Rendered { scores, classes, regions, images } = rendered;
     TechniqueResult {
         name: page.name.into(),
         spec: technique::spec(shadows.technique()),
@@ -31,8 +31,10 @@ pub(super) fn technique(shadows: &ShadowMap, rendered: Rendered, time: TimeResul
         settings,
         scores,
         regions,
+        classes,
         time,
         memory: memory(&shadows.memory()),
+        work: Some(work(shadows)),
         explain: shadows.explain(),
         images,
     }
@@ -56,6 +58,27 @@ fn memory(memory: &Memory) -> MemoryResult {
         items: memory.items.iter().map(item).collect(),
         kept_bytes: memory.bytes(antumbra::Lifetime::Kept),
         transient_bytes: memory.bytes(antumbra::Lifetime::Transient),
+    }
+}
+
+fn work(shadows: &ShadowMap) -> Work {
+    let memory = shadows.memory();
+    let kept = memory.items.iter().filter(|i| i.lifetime == antumbra::Lifetime::Kept && i.format != "buffer");
+    let side = |length: u32, mip: u32| u64::from((length >> mip).max(1));
+    let size = shadows.size();
+    let finest = (side(size.width, 0) * side(size.height, 0)) as f64;
+    let (mut plain, mut with_mips) = (0.0, 0.0);
+    for item in kept {
+        let texels: u64 = (0..item.mips).map(|mip| side(item.width, mip) * side(item.height, mip)).sum();
+        let share = (side(item.width, 0) * side(item.height, 0)) as f64 / texels as f64;
+        plain += share * item.bytes as f64 / finest;
+        with_mips += item.bytes as f64 / finest;
+    }
+    Work {
+        bytes_per_texel: plain,
+        bytes_per_texel_with_mips: with_mips,
+        lookups: shadows.technique().lookups(),
+        passes: shadows.passes().into_iter().map(String::from).collect(),
     }
 }
 

@@ -18,11 +18,11 @@ fn neighbour(at: vec3f, n: vec3f, ray: vec3f, own_ray: vec3f) -> vec3f {
     let pixel = vec2i(position.xy);
     let at = textureLoad(relative, pixel, 0);
     if at.w == 0.0 {
-        return 1.0;
+        return nothing;
     }
     let n = textureLoad(facet, pixel, 0).xyz;
     let ray = frame.ray.xyz + frame.ray_right.xyz * position.x + frame.ray_down.xyz * position.y;
     let ddx = neighbour(at.xyz, n, ray + frame.ray_right.xyz, ray);
     let ddy = neighbour(at.xyz, n, ray + frame.ray_down.xyz, ray);
-    return shadow_visibility(frame.eye.xyz + at.xyz, n, ddx, ddy);
+    return answer(frame.eye.xyz + at.xyz, n, ddx, ddy);
 }

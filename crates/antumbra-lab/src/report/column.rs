@@ -25,6 +25,7 @@ pub(super) const HARD: &str = "Hard truth";
 pub(super) const SCREEN_SPACE: &str = "Screen-space ideal";
 const TIME: &str = "Time";
 const MEMORY: &str = "Memory";
+const WORK: &str = "Work";
 
 const RMSE: &str = "Root of the mean squared error of visibility, 0 to 1. Lower is better.";
 const MAE: &str = "Mean absolute error of visibility, 0 to 1. Lower is better.";
@@ -46,6 +47,11 @@ const FRAME_RATIO: &str = "Frame time over that of the standard shadow map. Lowe
 const LOOKUP_RATIO: &str = "Lookup time over that of the standard shadow map. Lower is better.";
 const KEPT: &str = "Textures and buffers that lookups need, layers and mips included. Lower is better.";
 const TRANSIENT: &str = "Textures and buffers that only the shadow passes need. Lower is better.";
+const PER_TEXEL: &str =
+    "Bytes of textures that lookups need, for each texel of the map, without mip levels. Lower is better.";
+const WITH_MIPS: &str = "The same with mip levels. Lower is better.";
+const LOOKUPS: &str = "Texture lookups for each pixel that filters do not stretch; an interpolated one counts once. Lower is better.";
+const PASSES: &str = "Passes between casting and lighting. Lower is better.";
 
 pub(super) fn four_digits(value: f64) -> String {
     format!("{value:.4}")
@@ -78,7 +84,7 @@ impl Column {
 
 /// Every column, groups together.
 pub(super) fn all() -> Vec<Column> {
-    [light_space(), hard(), screen_space(), time(), memory()].into_iter().flatten().collect()
+    [light_space(), hard(), screen_space(), time(), memory(), work()].into_iter().flatten().collect()
 }
 
 fn light_space() -> Vec<Column> {
@@ -128,5 +134,16 @@ fn memory() -> Vec<Column> {
     vec![
         column("Kept", KEPT, |t| Some(t.memory.kept_bytes as f64)).shown(text::bytes),
         column("Transient", TRANSIENT, |t| Some(t.memory.transient_bytes as f64)).shown(text::bytes),
+    ]
+}
+
+fn work() -> Vec<Column> {
+    let column = |label, meaning, value| Column::new(WORK, label, meaning, value);
+    vec![
+        column("B/texel", PER_TEXEL, |t| Some(t.work.as_ref()?.bytes_per_texel)).shown(text::significant),
+        column("+ mips", WITH_MIPS, |t| Some(t.work.as_ref()?.bytes_per_texel_with_mips))
+            .shown(text::significant),
+        column("Lookups", LOOKUPS, |t| Some(t.work.as_ref()?.lookups.into())).shown(|n| n.to_string()),
+        column("Passes", PASSES, |t| Some(t.work.as_ref()?.passes.len() as f64)).shown(|n| n.to_string()),
     ]
 }

@@ -3,11 +3,9 @@
 use super::column::{HARD, LIGHT_SPACE, SCREEN_SPACE};
 use super::table::family;
 use super::text::{bytes, escape, milliseconds, significant};
+use crate::axis::Axis;
 use crate::metrics::Score;
 use crate::results::{Results, TechniqueResult};
-
-mod axis;
-use axis::Axis;
 
 /// Of the view box, in its units; the plotting area is what the margins leave.
 const SIZE: [f64; 2] = [480.0, 340.0];

@@ -117,7 +117,6 @@ onChoice("truth", (truth) => document.querySelectorAll(".plots").forEach((plots)
 // Sorting: the good end first, again for the other; cells without a value stay last.
 document.querySelectorAll("table.sortable").forEach((table) => {
   const heads = [...table.querySelectorAll("thead button")];
-  const body = table.tBodies[0];
   const order = new Intl.Collator(undefined, { numeric: true });
   heads.forEach((button, column) => button.addEventListener("click", () => {
     const head = button.closest("th");
@@ -132,7 +131,11 @@ document.querySelectorAll("table.sortable").forEach((table) => {
       if (x === undefined || y === undefined) return (x === undefined) - (y === undefined);
       return sign * (column === 0 ? order.compare(x, y) : Number(x) - Number(y));
     };
-    body.append(...[...body.rows].sort(compare));
+    // Families stay together, each under its heading.
+    for (const body of table.tBodies) {
+      const [heading, ...rows] = body.rows;
+      body.append(heading, ...rows.sort(compare));
+    }
   }));
 });
 

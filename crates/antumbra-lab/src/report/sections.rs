@@ -216,5 +216,9 @@ pub(super) fn definitions() -> String {
             "Medians over the rounds with the fastest and slowest round, in milliseconds; the clock is named with each pass.",
         ),
         ("Memory", "Every texture and buffer allocated, layers and mips included."),
+        (
+            "Work",
+            "What does not depend on the device's speed: bytes for each texel of the map that lookups need, lookups for each pixel, passes between casting and lighting. Trilinear interpolation counts as one lookup, an anisotropic one is not stretched.",
+        ),
     ])
 }

@@ -2,6 +2,7 @@
 
 use super::column::{self, Better, Column};
 use super::text::{escape, percent, significant};
+use crate::classes::ClassShare;
 use crate::metrics::Score;
 use crate::results::{Family, Results, TechniqueResult};
 use std::collections::BTreeSet;
@@ -26,22 +27,28 @@ pub(super) fn row_head(technique: &TechniqueResult) -> String {
     )
 }
 
-/// All techniques by all columns.
+/// Techniques by columns, family by family.
 pub(super) fn scores(results: &Results) -> String {
     let columns = column::all();
     let best: Vec<Option<f64>> = columns.iter().map(|column| best_of(results, column)).collect();
-    let rows: String = results
-        .techniques
-        .iter()
-        .map(|t| {
-            let cells: String =
-                columns.iter().zip(&best).map(|(column, best)| cell(column, t, *best)).collect();
-            format!("<tr>{}{cells}</tr>\n", row_head(t))
+    let row = |t: &TechniqueResult| {
+        let cells: String = columns.iter().zip(&best).map(|(column, best)| cell(column, t, *best)).collect();
+        format!("<tr>{}{cells}</tr>\n", row_head(t))
+    };
+    let bodies: String = results
+        .families()
+        .into_iter()
+        .map(|(of, members)| {
+            let rows: String = members.into_iter().map(row).collect();
+            let (name, across) = (family(of).0, columns.len());
+            format!(
+                "<tbody><tr class=\"family\"><th scope=\"rowgroup\">{name}</th><td colspan=\"{across}\"></td></tr>\n{rows}</tbody>"
+            )
         })
         .collect();
     format!(
         "<table class=\"scores sortable\"><caption class=\"unseen\">Scores, time and memory of every technique</caption>\n\
-         <thead>{}</thead>\n<tbody>{rows}</tbody>\n<tfoot>{}</tfoot></table>",
+         <thead>{}</thead>\n{bodies}\n<tfoot>{}</tfoot></table>",
         head(&columns),
         baseline(&columns, &results.truth.no_shadow)
     )
@@ -170,5 +177,32 @@ fn region_cells(score: Option<&Score>) -> String {
         shown(score.map(|s| s.rmse), column::four_digits),
         shown(score.and_then(|s| s.leak), significant),
         shown(score.and_then(|s| s.pixel_match_near_edges), percent),
+    )
+}
+
+/// Kinds of pixels that techniques tell apart; nothing if none does.
+pub(super) fn classes(results: &Results) -> String {
+    let row = |t: &TechniqueResult| {
+        let one = |(i, class): (usize, &ClassShare)| {
+            let head = if i == 0 { row_head(t) } else { "<td></td>".into() };
+            let [r, g, b] = class.colour;
+            format!(
+                "<tr>{head}<td><span class=\"swatch\" style=\"background:rgb({r},{g},{b})\"></span> {}</td><td>{}</td></tr>\n",
+                escape(&class.name),
+                super::text::percent(class.share)
+            )
+        };
+        t.classes.iter().enumerate().map(one).collect::<String>()
+    };
+    let rows: String = results.techniques.iter().map(row).collect();
+    if rows.is_empty() {
+        return String::new();
+    }
+    format!(
+        "<h3>Kinds of pixels</h3><p>What some techniques tell apart while they look up, as shares of the pixels that \
+         see geometry. Their pictures are among those of the slider.</p>\
+         <div class=\"scroll regions\" tabindex=\"0\" role=\"region\" aria-label=\"Kinds of pixels\"><table>\
+         <thead><tr><th scope=\"col\">Technique</th><th scope=\"col\">Kind</th><th scope=\"col\">Share</th></tr></thead>\
+         <tbody>{rows}</tbody></table></div>"
     )
 }

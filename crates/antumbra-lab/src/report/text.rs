@@ -3,7 +3,7 @@
 use crate::results::{Results, TechniqueResult};
 
 /// Safe as HTML text and in a quoted attribute.
-pub(super) fn escape(text: &str) -> String {
+pub(crate) fn escape(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
     for c in text.chars() {
         match c {

@@ -33,7 +33,7 @@ fn truths(results: &Results) -> [View<'_>; 3] {
     ]
 }
 
-fn views<'a>(results: &'a Results, technique: &'a TechniqueResult) -> [View<'a>; 4] {
+fn views<'a>(results: &'a Results, technique: &'a TechniqueResult) -> Vec<View<'a>> {
     let (images, truth) = (&technique.images, &results.truth.images);
     let view = |what: &str, file: &'a str| View {
         label: format!("{} · {what}", label(results, technique)),
@@ -44,12 +44,16 @@ fn views<'a>(results: &'a Results, technique: &'a TechniqueResult) -> [View<'a>;
         difference: Some([&images.visibility, truth]),
         ..view(what, file)
     };
+    let classes = images.classes.as_ref().map(|file| view("classes", file));
     [
         view("picture", &images.picture),
         view("visibility", &images.visibility),
         error("error to light-space ideal", &images.error_light_space, &truth.light_space),
         error("error to hard truth", &images.error_hard, &truth.hard),
     ]
+    .into_iter()
+    .chain(classes)
+    .collect()
 }
 
 /// Every image that the page shows, once: a JSON object from file name to base64, safe in a script
@@ -97,19 +101,13 @@ fn option(view: &View<'_>, chosen: &str) -> String {
 
 /// All signed-error maps, family by family.
 pub(super) fn heat_maps(results: &Results) -> String {
-    let families = [Family::Comparison, Family::Basis, Family::Geometry];
-    let group = |of: Family| {
-        let members: String =
-            results.techniques.iter().filter(|t| t.family == of).map(|t| heat_map(results, t)).collect();
+    let group = |(of, members): (Family, Vec<&TechniqueResult>)| {
+        let members: String = members.into_iter().map(|t| heat_map(results, t)).collect();
         let (name, class) = family(of);
         let head = format!("<h3><span class=\"mark {class}\" aria-hidden=\"true\"></span>{name}</h3>");
-        if members.is_empty() {
-            String::new()
-        } else {
-            format!("{head}<div class=\"maps\">{members}</div>\n")
-        }
+        format!("{head}<div class=\"maps\">{members}</div>\n")
     };
-    families.into_iter().map(group).collect()
+    results.families().into_iter().map(group).collect()
 }
 
 fn heat_map(results: &Results, technique: &TechniqueResult) -> String {

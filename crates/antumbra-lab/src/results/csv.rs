@@ -27,19 +27,15 @@ pub(super) fn table(results: &Results) -> String {
     let cost = ["frame_ms", "frame_min_ms", "frame_max_ms", "frame_ratio_to_hard", "lookup_ratio_to_hard"];
     head.extend(cost.map(String::from));
     head.extend(["kept_bytes", "transient_bytes"].map(String::from));
+    head.extend(["bytes_per_texel", "bytes_per_texel_with_mips", "lookups", "passes"].map(String::from));
     let rows = results.techniques.iter().map(row);
     std::iter::once(head).chain(rows).map(|cells| line(&cells)).collect()
 }
 
 fn row(technique: &TechniqueResult) -> Vec<String> {
-    let family = match technique.family {
-        super::Family::Comparison => "comparison",
-        super::Family::Basis => "basis",
-        super::Family::Geometry => "geometry",
-    };
     let mut cells: Vec<String> =
         [&technique.spec, &technique.name, &technique.title].map(String::clone).into();
-    cells.push(family.into());
+    cells.push(technique.family.name().into());
     let scores = &technique.scores;
     for score in [&scores.hard, &scores.light_space, &scores.screen_space] {
         cells.extend(score_cells(score));
@@ -48,6 +44,13 @@ fn row(technique: &TechniqueResult) -> Vec<String> {
     cells.extend([time.frame.median_ms, time.frame.min_ms, time.frame.max_ms].map(|ms| ms.to_string()));
     cells.extend([time.frame_ratio_to_hard, time.lookup_ratio_to_hard].map(optional));
     cells.extend([technique.memory.kept_bytes, technique.memory.transient_bytes].map(|b| b.to_string()));
+    let work = technique.work.as_ref();
+    cells.extend([
+        optional(work.map(|w| w.bytes_per_texel)),
+        optional(work.map(|w| w.bytes_per_texel_with_mips)),
+        optional(work.map(|w| f64::from(w.lookups))),
+        optional(work.map(|w| w.passes.len() as f64)),
+    ]);
     cells
 }
 

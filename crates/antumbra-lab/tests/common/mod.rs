@@ -1,5 +1,6 @@
 //! A scene on the GPU and under rays, and what techniques make of it.
 
+#![allow(dead_code, reason = "each test program uses a part of it")]
 #![allow(clippy::unwrap_used, reason = "helpers of tests fail like tests")]
 
 use antumbra::{Kernel, Options, ShadowMap, Size, Technique, View, Weights, technique::Bias};

@@ -1,7 +1,7 @@
 //! Closed shapes with outward normals and counter-clockwise triangles.
 
 use crate::{Instance, Material, Mesh, Scene};
-use glam::{Mat4, Vec2, Vec3, Vec4};
+use glam::{Mat3, Mat4, Vec2, Vec3, Vec4};
 use std::f32::consts::{PI, TAU};
 
 /// Collects meshes, materials and instances.
@@ -37,6 +37,13 @@ impl Builder {
         self.scene.instances.push(Instance { mesh, world_from_mesh });
     }
 
+    /// Places every mesh of a [`Model`](super::model::Model).
+    pub(super) fn place_all(&mut self, meshes: &[usize], world_from_model: Mat4) {
+        for &mesh in meshes {
+            self.place(mesh, world_from_model);
+        }
+    }
+
     pub(super) fn finish(self, camera: crate::Camera, light: crate::Light) -> Scene {
         Scene { cameras: vec![camera], lights: vec![light], ..self.scene }
     }
@@ -49,6 +56,22 @@ pub(super) fn vertex(mesh: &mut Mesh, position: Vec3, normal: Vec3, uv: Vec2) ->
     mesh.uvs.push(uv);
     mesh.colors.push(Vec4::ONE);
     mesh.positions.len() as u32 - 1
+}
+
+/// Appends a transformed copy of `shape` to `mesh`; mirrored copies keep their outside outside.
+pub(super) fn append(mesh: &mut Mesh, shape: &Mesh, mesh_from_shape: Mat4) {
+    let first = mesh.positions.len() as u32;
+    let linear = Mat3::from_mat4(mesh_from_shape);
+    let mirrored = linear.determinant() < 0.0;
+    let normals = linear.inverse().transpose();
+    mesh.positions.extend(shape.positions.iter().map(|&p| mesh_from_shape.transform_point3(p)));
+    mesh.normals.extend(shape.normals.iter().map(|&n| (normals * n).normalize()));
+    mesh.uvs.extend_from_slice(&shape.uvs);
+    mesh.colors.extend_from_slice(&shape.colors);
+    for corners in shape.indices.chunks_exact(3) {
+        let [a, b, c] = [0, 1, 2].map(|k| corners[k] + first);
+        mesh.indices.extend(if mirrored { [a, c, b] } else { [a, b, c] });
+    }
 }
 
 /// A convex flat polygon, corners counter-clockwise seen from its front.
@@ -86,6 +109,20 @@ pub(super) fn cuboid(size: Vec3) -> Mesh {
             }
             mesh.indices.extend([0, 1, 2, 0, 2, 3].map(|i| first + i));
         }
+    }
+    mesh
+}
+
+/// A convex outline in the xy plane, counter-clockwise, drawn out along z to `depth` around z = 0:
+/// `4n − 4` triangles for n corners.
+pub(super) fn extruded(outline: &[[f32; 2]], depth: f32) -> Mesh {
+    let mut mesh = Mesh::default();
+    let at = |&[x, y]: &[f32; 2], side: f32| Vec3::new(x, y, side * 0.5 * depth);
+    let mut face = |corners: &[Vec3]| append(&mut mesh, &polygon(corners), Mat4::IDENTITY);
+    face(&outline.iter().map(|p| at(p, 1.0)).collect::<Vec<_>>());
+    face(&outline.iter().rev().map(|p| at(p, -1.0)).collect::<Vec<_>>());
+    for (p, q) in outline.iter().zip(outline.iter().cycle().skip(1)) {
+        face(&[at(p, 1.0), at(p, -1.0), at(q, -1.0), at(q, 1.0)]);
     }
     mesh
 }

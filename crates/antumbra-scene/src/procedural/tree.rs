@@ -82,7 +82,7 @@ fn spine(bud: Bud, pieces: u32, random: &mut Random) -> Vec<(Vec3, f32)> {
 }
 
 /// A tube around the spine that ends in a point.
-fn tube(mesh: &mut Mesh, spine: &[(Vec3, f32)], sides: u32) {
+pub(super) fn tube(mesh: &mut Mesh, spine: &[(Vec3, f32)], sides: u32) {
     let direction = |i: usize| {
         let (a, b) = (spine[i.saturating_sub(1)].0, spine[(i + 1).min(spine.len() - 1)].0);
         (b - a).normalize()

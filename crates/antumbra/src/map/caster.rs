@@ -184,7 +184,7 @@ impl TriangleCaster {
         };
         let shader = shader::triangles(technique, &Capabilities::of(device), None);
         let pipeline =
-            pipelines.keep(&shader, &[format], |device| compile(device, &shader, format, &layout, &[]));
+            pipelines.caster(&shader, &[format], |device| compile(device, &shader, format, &layout, &[]));
         Self {
             groups: (0..slots).map(group).collect(),
             pipeline,

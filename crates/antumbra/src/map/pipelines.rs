@@ -1,11 +1,13 @@
 //! One cache of full-screen pipelines per device.
 
-use crate::pass::{Slot, Step};
+use crate::pass::{Slot, Step, Work};
 use std::{
     collections::HashMap,
     sync::{Arc, Mutex, PoisonError},
 };
-use wgpu::{BindGroup, BindGroupLayout, RenderPipeline, TextureFormat, TextureView};
+use wgpu::{
+    BindGroup, BindGroupLayout, BindingType, ComputePipeline, RenderPipeline, TextureFormat, TextureView,
+};
 
 type Key = (String, Vec<TextureFormat>);
 
@@ -13,55 +15,39 @@ type Key = (String, Vec<TextureFormat>);
 #[derive(Debug, Clone)]
 pub struct Pipelines {
     device: wgpu::Device,
-    depth: BindGroupLayout,
-    texture: BindGroupLayout,
     nearest: wgpu::Sampler,
-    made: Arc<Mutex<HashMap<Key, RenderPipeline>>>,
+    made: Arc<Mutex<HashMap<Key, Pipeline>>>,
+    casters: Arc<Mutex<HashMap<Key, RenderPipeline>>>,
+}
+
+/// A compiled step.
+#[derive(Debug, Clone)]
+pub(super) struct Pipeline {
+    pub(super) run: Run,
+    layout: BindGroupLayout,
+}
+
+/// How a step is run.
+#[derive(Debug, Clone)]
+pub(super) enum Run {
+    /// A full-screen triangle.
+    Draw(RenderPipeline),
+    /// A compute shader whose invocations are rows or columns.
+    Dispatch(ComputePipeline),
 }
 
 impl Pipelines {
     /// An empty cache.
     #[must_use]
     pub fn new(device: &wgpu::Device) -> Self {
-        use wgpu::{BindingType, SamplerBindingType, TextureSampleType};
-        let texture = |sample_type| BindingType::Texture {
-            sample_type,
-            view_dimension: wgpu::TextureViewDimension::D2,
-            multisampled: false,
-        };
-        let layout = |label, types: [BindingType; 2]| {
-            let entry = |(i, ty)| wgpu::BindGroupLayoutEntry {
-                binding: i as u32,
-                visibility: wgpu::ShaderStages::FRAGMENT,
-                ty,
-                count: None,
-            };
-            let entries: Vec<_> = types.into_iter().enumerate().map(entry).collect();
-            device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-                label: Some(label),
-                entries: &entries,
-            })
-        };
-        let uniform = BindingType::Buffer {
-            ty: wgpu::BufferBindingType::Uniform,
-            has_dynamic_offset: false,
-            min_binding_size: None,
-        };
         Self {
             device: device.clone(),
-            depth: layout("shadow convert", [texture(TextureSampleType::Depth), uniform]),
-            texture: layout(
-                "shadow filter",
-                [
-                    texture(TextureSampleType::Float { filterable: false }),
-                    BindingType::Sampler(SamplerBindingType::NonFiltering),
-                ],
-            ),
             nearest: device.create_sampler(&wgpu::SamplerDescriptor {
                 label: Some("shadow nearest"),
                 ..Default::default()
             }),
             made: Arc::default(),
+            casters: Arc::default(),
         }
     }
 
@@ -77,44 +63,65 @@ impl Pipelines {
         self.len() == 0
     }
 
-    pub(super) fn get(&self, step: &Step, formats: &[TextureFormat]) -> RenderPipeline {
+    /// The pipeline of a step whose targets have these formats.
+    pub(super) fn get(&self, step: &Step, formats: &[TextureFormat]) -> Pipeline {
         let mut made = self.made.lock().unwrap_or_else(PoisonError::into_inner);
         made.entry((step.shader.clone(), formats.to_vec()))
             .or_insert_with(|| self.compile(step, formats))
             .clone()
     }
 
-    /// A pipeline that someone else compiles, unless it is there.
-    pub(super) fn keep(
+    /// A caster's pipeline, which `compile` makes unless it is there.
+    pub(super) fn caster(
         &self,
         shader: &str,
         formats: &[TextureFormat],
         compile: impl FnOnce(&wgpu::Device) -> RenderPipeline,
     ) -> RenderPipeline {
-        let mut made = self.made.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut made = self.casters.lock().unwrap_or_else(PoisonError::into_inner);
         made.entry((shader.to_string(), formats.to_vec())).or_insert_with(|| compile(&self.device)).clone()
     }
 
-    fn compile(&self, step: &Step, formats: &[TextureFormat]) -> RenderPipeline {
+    fn compile(&self, step: &Step, formats: &[TextureFormat]) -> Pipeline {
         let module = self.device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some(step.label),
             source: wgpu::ShaderSource::Wgsl(step.shader.as_str().into()),
         });
-        let group = match step.source.slot {
-            Slot::Casters => &self.depth,
-            Slot::Map(_) | Slot::Scratch(_) => &self.texture,
-        };
-        let layout = self.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        let layout = self.layout(step, formats);
+        let pipeline_layout = self.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some(step.label),
-            bind_group_layouts: &[Some(group)],
+            bind_group_layouts: &[Some(&layout)],
             immediate_size: 0,
         });
+        let run = match step.work {
+            Work::Draw => Run::Draw(self.draw(step, &module, &pipeline_layout, formats)),
+            Work::Lanes(_) => {
+                Run::Dispatch(self.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                    label: Some(step.label),
+                    layout: Some(&pipeline_layout),
+                    module: &module,
+                    entry_point: Some("compute"),
+                    compilation_options: Default::default(),
+                    cache: None,
+                }))
+            }
+        };
+        Pipeline { run, layout }
+    }
+
+    fn draw(
+        &self,
+        step: &Step,
+        module: &wgpu::ShaderModule,
+        layout: &wgpu::PipelineLayout,
+        formats: &[TextureFormat],
+    ) -> RenderPipeline {
         let targets: Vec<_> = formats.iter().map(|f| Some(wgpu::ColorTargetState::from(*f))).collect();
         self.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(step.label),
-            layout: Some(&layout),
+            layout: Some(layout),
             vertex: wgpu::VertexState {
-                module: &module,
+                module,
                 entry_point: Some("vertex"),
                 compilation_options: Default::default(),
                 buffers: &[],
@@ -123,7 +130,7 @@ impl Pipelines {
             depth_stencil: None,
             multisample: Default::default(),
             fragment: Some(wgpu::FragmentState {
-                module: &module,
+                module,
                 entry_point: Some("fragment"),
                 compilation_options: Default::default(),
                 targets: &targets,
@@ -133,27 +140,73 @@ impl Pipelines {
         })
     }
 
-    pub(super) fn bind_depth(&self, source: &TextureView, uniforms: wgpu::BindingResource<'_>) -> BindGroup {
-        self.bind(&self.depth, source, uniforms)
+    /// Binding 0 is the source; 1 the settings of converting; 2 a nearest sampler; 3 a storage target.
+    fn layout(&self, step: &Step, formats: &[TextureFormat]) -> BindGroupLayout {
+        use wgpu::{SamplerBindingType, TextureSampleType, TextureViewDimension as Dimension};
+        let texture = |sample_type, view_dimension| BindingType::Texture {
+            sample_type,
+            view_dimension,
+            multisampled: false,
+        };
+        let uniform = BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Uniform,
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        };
+        let sampler = BindingType::Sampler(SamplerBindingType::NonFiltering);
+        let floats = TextureSampleType::Float { filterable: false };
+        let (source, uniform, sampler) = match (step.source.slot, step.work) {
+            (Slot::Casters, _) => {
+                (texture(TextureSampleType::Depth, Dimension::D2), Some(uniform), Some(sampler))
+            }
+            (_, Work::Draw) => (texture(floats, Dimension::D2Array), None, Some(sampler)),
+            (_, Work::Lanes(_)) => (texture(TextureSampleType::Uint, Dimension::D2Array), None, None),
+        };
+        let target = |format: &TextureFormat| BindingType::StorageTexture {
+            access: wgpu::StorageTextureAccess::WriteOnly,
+            format: *format,
+            view_dimension: Dimension::D2,
+        };
+        let stored = matches!(step.work, Work::Lanes(_)).then(|| formats.first().map(target)).flatten();
+        let visibility = match step.work {
+            Work::Draw => wgpu::ShaderStages::FRAGMENT,
+            Work::Lanes(_) => wgpu::ShaderStages::COMPUTE,
+        };
+        let entry = |(i, ty): (u32, Option<BindingType>)| {
+            ty.map(|ty| wgpu::BindGroupLayoutEntry { binding: i, visibility, ty, count: None })
+        };
+        let entries: Vec<_> = (0..).zip([Some(source), uniform, sampler, stored]).filter_map(entry).collect();
+        self.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some(step.label),
+            entries: &entries,
+        })
     }
 
-    pub(super) fn bind_texture(&self, source: &TextureView) -> BindGroup {
-        self.bind(&self.texture, source, wgpu::BindingResource::Sampler(&self.nearest))
-    }
-
-    fn bind(
+    /// What a step reads and stores; `uniforms` are those of converting.
+    pub(super) fn bind(
         &self,
-        layout: &BindGroupLayout,
-        source: &TextureView,
-        second: wgpu::BindingResource<'_>,
+        pipeline: &Pipeline,
+        step: &Step,
+        [source, target]: [&TextureView; 2],
+        uniforms: wgpu::BindingResource<'_>,
     ) -> BindGroup {
+        use wgpu::{BindGroupEntry, BindingResource};
+        let sampler = Some(BindingResource::Sampler(&self.nearest));
+        let (uniforms, sampler) = match (step.source.slot, step.work) {
+            (Slot::Casters, _) => (Some(uniforms), sampler),
+            (_, Work::Draw) => (None, sampler),
+            (_, Work::Lanes(_)) => (None, None),
+        };
+        let stored = matches!(step.work, Work::Lanes(_)).then_some(BindingResource::TextureView(target));
+        let resources = [Some(BindingResource::TextureView(source)), uniforms, sampler, stored];
+        let entries: Vec<_> = (0..)
+            .zip(resources)
+            .filter_map(|(binding, resource)| Some(BindGroupEntry { binding, resource: resource? }))
+            .collect();
         self.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("shadow pass"),
-            layout,
-            entries: &[
-                wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(source) },
-                wgpu::BindGroupEntry { binding: 1, resource: second },
-            ],
+            layout: &pipeline.layout,
+            entries: &entries,
         })
     }
 }

@@ -39,12 +39,12 @@ pub(super) fn group(
             }
             Binding::Map(m) => {
                 let map = &textures.maps()[*m];
-                let filterable = capabilities.filters(map.texture.format());
-                (texture(TextureSampleType::Float { filterable }), BindingResource::TextureView(&map.array))
-            }
-            Binding::Words(m) => {
-                let array = &textures.maps()[*m].array;
-                (texture(TextureSampleType::Uint), BindingResource::TextureView(array))
+                let format = map.texture.format();
+                let kind = match format.sample_type(None, None) {
+                    Some(TextureSampleType::Uint) => TextureSampleType::Uint,
+                    _ => TextureSampleType::Float { filterable: capabilities.filters(format) },
+                };
+                (texture(kind), BindingResource::TextureView(&map.array))
             }
             Binding::Sampler => {
                 let kind =

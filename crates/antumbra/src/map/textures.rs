@@ -6,8 +6,9 @@ use super::{
     uniforms::Uniforms,
 };
 use crate::{
+    capabilities::Capabilities,
     light::Size,
-    pass::{self, Place, Slot},
+    pass::{self, Place, Slot, Step},
     technique::{Binding, Map, Pass},
 };
 use wgpu::{
@@ -23,6 +24,12 @@ pub(super) struct Kept {
     /// All layers and levels.
     pub(super) array: TextureView,
     scratch: Option<wgpu::Texture>,
+}
+
+impl Kept {
+    fn scratch(&self) -> &wgpu::Texture {
+        self.scratch.as_ref().unwrap_or(&self.texture)
+    }
 }
 
 /// Casters' depth, maps and scratch.
@@ -42,6 +49,7 @@ impl Textures {
     /// Casters' depth has a layer per view if receivers compare it, else one that all views share.
     pub(super) fn new(
         device: &wgpu::Device,
+        capabilities: &Capabilities,
         maps: &[Map],
         options: &Options,
         depth: Option<&wgpu::Texture>,
@@ -62,17 +70,18 @@ impl Textures {
         let keep = |map: &Map| {
             let levels = pass::levels(map, options.size);
             let layers = map.layers * options.views;
-            let blurs = map.passes.iter().any(|p| matches!(p, Pass::Blur(_)));
-            let usage = usage | TextureUsages::COPY_SRC;
+            let written = if map.passes.iter().any(|p| matches!(p, Pass::Sum(_))) {
+                TextureUsages::STORAGE_BINDING
+            } else {
+                TextureUsages::RENDER_ATTACHMENT
+            };
+            let usage = written | TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_SRC;
             let kept = texture(device, map.name, options.size, layers, levels, map.format, usage);
-            Kept {
-                name: map.name,
-                layers: map.layers,
-                array: all(&kept),
-                texture: kept,
-                scratch: blurs
-                    .then(|| texture(device, "blur scratch", options.size, 1, 1, map.format, usage)),
-            }
+            let scratch = match pass::scratch_layers(map, capabilities) {
+                0 => None,
+                layers => Some(texture(device, "filter scratch", options.size, layers, 1, map.format, usage)),
+            };
+            Kept { name: map.name, layers: map.layers, array: all(&kept), texture: kept, scratch }
         };
         let maps: Vec<Kept> = maps.iter().map(keep).collect();
         let layers = maps.first().map_or(0, |map| map.layers * options.views);
@@ -99,19 +108,34 @@ impl Textures {
         &self.maps
     }
 
-    /// The layer and level of a place, for one view.
-    pub(super) fn view(&self, place: &Place, view: u32) -> TextureView {
-        match place.slot {
+    /// What a step reads, for one view: layers of one level as an array, or the casters' depth.
+    pub(super) fn source(&self, step: &Step, view: u32) -> TextureView {
+        let Place { slot, layer, mip } = step.source;
+        let array = |texture: &wgpu::Texture, base_array_layer| {
+            texture.create_view(&TextureViewDescriptor {
+                dimension: Some(TextureViewDimension::D2Array),
+                base_array_layer,
+                array_layer_count: Some(step.source_layers),
+                base_mip_level: mip,
+                mip_level_count: Some(1),
+                ..Default::default()
+            })
+        };
+        match slot {
             Slot::Casters => one(&self.casters, view.min(self.casters.depth_or_array_layers() - 1), 0),
-            Slot::Map(i) => {
-                let map = &self.maps[i];
-                one(&map.texture, view * map.layers + place.layer, place.mip)
-            }
-            Slot::Scratch(i) => {
-                let map = &self.maps[i];
-                one(map.scratch.as_ref().unwrap_or(&map.texture), 0, 0)
-            }
+            Slot::Map(i) => array(&self.maps[i].texture, view * self.maps[i].layers + layer),
+            Slot::Scratch(i) => array(self.maps[i].scratch(), layer),
         }
+    }
+
+    /// What a step writes, for one view.
+    pub(super) fn targets(&self, step: &Step, view: u32) -> Vec<TextureView> {
+        let target = |place: &Place| match place.slot {
+            Slot::Casters => self.caster_targets[view as usize].clone(),
+            Slot::Map(i) => one(&self.maps[i].texture, view * self.maps[i].layers + place.layer, place.mip),
+            Slot::Scratch(i) => one(self.maps[i].scratch(), place.layer, 0),
+        };
+        step.targets.iter().map(target).collect()
     }
 
     pub(super) fn memory(&self, uniforms: &Uniforms) -> Memory {
@@ -119,7 +143,7 @@ impl Textures {
         for map in &self.maps {
             items.push(MemoryItem::texture(map.name, &map.texture, Lifetime::Kept));
             items.extend(
-                map.scratch.iter().map(|s| MemoryItem::texture("blur scratch", s, Lifetime::Transient)),
+                map.scratch.iter().map(|s| MemoryItem::texture("filter scratch", s, Lifetime::Transient)),
             );
         }
         items.extend(uniforms.memory());

@@ -1,36 +1,50 @@
-//! Separable convolution: rows into a scratch layer, columns back.
+//! Separable convolution: rows into scratch layers, columns back.
+//!
+//! The taps are written out with their weights as literals and fetched through a nearest sampler,
+//! whose clamping repeats the edge: the form that software drivers compile best, and no worse on
+//! GPUs.
 
-use super::{Place, Slot, Step};
-use crate::kernel::Kernel;
+use super::{Place, Run, Slot, Step, combine, targets};
+use crate::{kernel::Kernel, technique::Combine};
 
-/// Two steps per layer of map `index`.
-pub(super) fn steps(kernel: &Kernel, index: usize, layers: u32) -> impl Iterator<Item = Step> {
-    let [rows, columns] = ["x", "y"].map(|axis| shader(kernel, axis));
-    (0..layers).flat_map(move |layer| {
-        let map = Place { slot: Slot::Map(index), layer, mip: 0 };
-        let scratch = Place { slot: Slot::Scratch(index), layer: 0, mip: 0 };
-        [(&rows, map, scratch), (&columns, scratch, map)].map(|(shader, source, target)| Step {
-            label: "blur",
-            shader: shader.clone(),
-            source,
-            targets: vec![target],
-        })
+/// Layers that are convolved at once: with more, software drivers run out of registers.
+const TOGETHER: u32 = 4;
+
+/// Rows and columns.
+pub(super) fn steps(kernel: &Kernel, how: Combine, run: Run) -> impl Iterator<Item = Step> {
+    let rows = run.parts(TOGETHER).map(move |(skipped, part)| {
+        let from = Place { slot: Slot::Map(run.map), layer: part.first, mip: 0 };
+        part.step("blur", shader(kernel, how, part.count, "x"), from, run.scratch().skip(skipped as usize))
+    });
+    rows.chain(columns(kernel, how, run))
+}
+
+/// Columns of scratch layers that hold blurred rows.
+pub(super) fn columns(kernel: &Kernel, how: Combine, run: Run) -> impl Iterator<Item = Step> {
+    run.parts(TOGETHER).map(move |(layer, part)| {
+        let from = Place { slot: Slot::Scratch(run.map), layer, mip: 0 };
+        part.step("blur", shader(kernel, how, part.count, "y"), from, part.kept(0))
     })
 }
 
-/// The taps are written out with their weights as literals and fetched through a nearest sampler,
-/// whose clamping repeats the edge: the form that software drivers compile best, and no worse on
-/// GPUs.
-fn shader(kernel: &Kernel, axis: &str) -> String {
-    let centre = (kernel.taps.len() as f32 - 1.0) / 2.0;
-    let taps: String = kernel
-        .taps
-        .iter()
-        .enumerate()
-        .map(|(i, weight)| {
-            let offset = i as f32 - centre;
-            format!("    sum += {weight:?} * textureSampleLevel(source, nearest, (position.xy + {offset:?} * step) * texel, 0.0);\n")
-        })
-        .collect();
-    include_str!("blur.wgsl.in").replace("{axis}", axis).replace("{taps}", &taps)
+fn shader(kernel: &Kernel, how: Combine, count: u32, axis: &str) -> String {
+    let mut taps = String::new();
+    for (offset, weight) in kernel.offsets() {
+        let at = format!("(position.xy + {offset:?} * step) * texel");
+        for i in 0..count {
+            taps += &format!(
+                "    sum_{i} = combine_add(sum_{i}, {weight:?}, textureSampleLevel(source, nearest, {at}, {i}, 0.0));\n"
+            );
+        }
+    }
+    let start: String = (0..count).map(|i| format!("    var sum_{i} = combine_none();\n")).collect();
+    let stores: String =
+        (0..count).map(|i| format!("    targets.layer_{i} = combine_result(sum_{i});\n")).collect();
+    combine(how)
+        + &include_str!("blur.wgsl.in")
+            .replace("{axis}", axis)
+            .replace("{targets}", &targets(count))
+            .replace("{start}", &start)
+            .replace("{taps}", &taps)
+            .replace("{stores}", &stores)
 }

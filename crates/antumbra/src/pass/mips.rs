@@ -1,15 +1,20 @@
-//! Mip chain: each level is the mean of 2×2 texels of the level above.
+//! Mip chain: each level puts 2×2 texels of the level above together.
 
-use super::{Place, Slot, Step};
+use super::{Run, Step, combine, targets};
+use crate::technique::Combine;
 
-/// One step per layer and level.
-pub(super) fn steps(slot: Slot, layers: u32, levels: u32) -> impl Iterator<Item = Step> {
-    (1..levels).flat_map(move |mip| {
-        (0..layers).map(move |layer| Step {
-            label: "mips",
-            shader: include_str!("mips.wgsl").to_string(),
-            source: Place { slot, layer, mip: mip - 1 },
-            targets: vec![Place { slot, layer, mip }],
-        })
+/// One step per level.
+pub(super) fn steps(how: Combine, run: Run, levels: u32) -> impl Iterator<Item = Step> {
+    let shader = shader(how, run.count);
+    (1..levels).filter_map(move |mip| {
+        let from = run.kept(mip - 1).next()?;
+        Some(run.step("mips", shader.clone(), from, run.kept(mip)))
     })
+}
+
+fn shader(how: Combine, count: u32) -> String {
+    let layers: String =
+        (0..count).map(|i| format!("    targets.layer_{i} = mip(low, high, {i});\n")).collect();
+    combine(how)
+        + &include_str!("mips.wgsl.in").replace("{targets}", &targets(count)).replace("{layers}", &layers)
 }

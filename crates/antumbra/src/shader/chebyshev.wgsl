@@ -12,3 +12,10 @@ fn chebyshev_bound(depth: f32, moments: vec2f, least_variance: f32) -> f32 {
 fn chebyshev_reduce(bound: f32, reduction: f32) -> f32 {
     return clamp((bound - reduction) / (1.0 - reduction), 0.0, 1.0);
 }
+
+/// Variance of a plane's depth within one texel: a quarter of the squared gain over a texel in x plus
+/// that in y. `plane` is the gain per unit of texture coordinate, `size` the map's size in texels.
+fn chebyshev_slope(plane: vec2f, size: vec2f) -> f32 {
+    let gain = plane / size;
+    return 0.25 * dot(gain, gain);
+}

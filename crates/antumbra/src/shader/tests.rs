@@ -1,5 +1,9 @@
 use super::*;
-use crate::technique::{self, all, parse};
+use crate::{
+    light::Size,
+    pass::plan,
+    technique::{self, all, parse},
+};
 use naga::{
     AddressSpace,
     valid::{Capabilities as Allowed, ValidationFlags, Validator},
@@ -21,15 +25,26 @@ fn variants() -> Vec<Box<dyn Technique>> {
         let mut settings = vec![""];
         if names.contains(&"sampling") {
             settings.extend(["sampling=nearest", "sampling=bilinear", "sampling=anisotropic,anisotropy=4"]);
+            settings.extend(["sampling=summed", "kernel=5,weights=box"]);
         }
         if names.contains(&"taps") {
             settings.extend(["taps=nearest", "kernel=8,weights=box"]);
         }
         if names.contains(&"terms") {
-            settings.extend(["terms=1", "terms=5"]);
+            settings.extend(["terms=1", "terms=5", "storage=float32"]);
         }
         if names.contains(&"intervals") {
             settings.extend(["intervals=2", "intervals=7"]);
+        }
+        if names.contains(&"classifier") {
+            settings.extend(["classifier=threshold", "classifier=zmax", "classifier=zmax,custom=none"]);
+            settings.extend(["storage=log16", "sampling=summed,classifier=zmax"]);
+        }
+        if names.contains(&"slope_of") {
+            settings.extend(["slope_of=caster", "storage=unorm16"]);
+        }
+        if names.contains(&"choose") {
+            settings.extend(["choose=receiver", "choose=blend"]);
         }
         if names.contains(&"moments") {
             settings.push("moments=two");
@@ -77,15 +92,17 @@ fn check_file(stem: &str, text: &str) -> Result<(), String> {
         if top {
             let (kind, name) = (tokens.next().unwrap_or_default(), tokens.next().unwrap_or_default());
             match kind {
+                "alias" | "struct" if !name.starts_with(&upper) => {
+                    return Err(at(&format!("must begin with {upper}")));
+                }
                 "fn" | "const" | "override" if !name.starts_with(&prefix) => {
                     return Err(at(&format!("must begin with {prefix}")));
                 }
-                "struct" if !name.starts_with(&upper) => {
-                    return Err(at(&format!("must begin with {upper}")));
+                "fn" | "const" | "override" | "struct" | "alias" if !documented => {
+                    return Err(at("no /// before it"));
                 }
-                "fn" | "const" | "override" | "struct" if !documented => return Err(at("no /// before it")),
-                "fn" | "const" | "override" | "struct" => {}
-                _ => return Err(at("neither fn nor const nor override nor struct")),
+                "fn" | "const" | "override" | "struct" | "alias" => {}
+                _ => return Err(at("neither fn nor const nor override nor struct nor alias")),
             }
         }
         documented = false;
@@ -117,7 +134,8 @@ fn files_that_break_a_rule_are_found() {
         ("/// Doc.\nfn y_one(a: f32) -> f32 {\n    return a;\n}\n", "must begin with x_"),
         ("/// Doc.\nstruct Y { a: f32 }\n", "must begin with X"),
         ("fn x_one(a: f32) -> f32 {\n    return a;\n}\n", "no ///"),
-        ("/// Doc.\nalias x_a = f32;\n", "neither"),
+        ("/// Doc.\nalias x_a = f32;\n", "must begin with X"),
+        ("/// Doc.\ndiagnostic(off, x_y);\n", "neither"),
         ("/// Doc.\nfn x_one(a: f32) -> f32 {\n    return dpdx(a);\n}\n", "derivative"),
         (
             "/// Doc.\nfn x_one(t: texture_2d<f32>, s: sampler) -> vec4f {\n    return textureSample(t, s, vec2f(0.0));\n}\n",
@@ -133,8 +151,10 @@ fn files_that_break_a_rule_are_found() {
 #[test]
 fn every_shared_file_validates_with_its_needs_and_nothing_else() {
     for (stem, _) in FILES {
-        for level in ["level_hardware", "level_manual"] {
-            let text = ShaderText::file(stem, &[level]).text();
+        for parts in
+            [["level_hardware", "words_1"], ["level_manual", "words_2"], ["level_logarithmic", "words_4"]]
+        {
+            let text = ShaderText::file(stem, &parts).text();
             let module = validate(&text).unwrap_or_else(|e| panic!("{stem}: {e}"));
             assert!(module.global_variables.is_empty(), "{stem} binds something");
         }
@@ -154,7 +174,7 @@ fn every_technique_validates_with_its_needs() {
 }
 
 #[test]
-fn every_composed_receiver_and_convert_shader_validates() {
+fn every_composed_receiver_and_pass_validates() {
     for device in devices() {
         for technique in variants() {
             let spec = technique::spec(technique.as_ref());
@@ -166,9 +186,13 @@ fn every_composed_receiver_and_convert_shader_validates() {
             let uniforms =
                 module.global_variables.iter().filter(|(_, v)| v.space == AddressSpace::Uniform).count();
             assert_eq!(uniforms, 1, "{spec}");
-            for map in technique.maps(&device).unwrap() {
-                let together = device.targets_per_pass(map.format).min(map.layers);
-                let text = convert(technique.as_ref(), &device, &map, 0, together);
+            let maps = technique.maps(&device).unwrap();
+            let mut texts: Vec<String> = plan(technique.as_ref(), &device, &maps, Size::square(64))
+                .into_iter()
+                .map(|s| s.shader)
+                .collect();
+            texts.dedup();
+            for text in texts {
                 validate(&text).unwrap_or_else(|e| panic!("{spec}: {e}"));
             }
         }
@@ -189,6 +213,7 @@ fn every_constant_replaces_exactly_one_declaration() {
             for constant in technique.constants() {
                 let (name, value) = match &constant {
                     Constant::Count(name, n) => (*name, format!("= {n}u;")),
+                    Constant::Number(name, x) => (*name, format!("= {x:?};")),
                     Constant::Array(name, values) => (*name, format!("array<f32, {}>", values.len())),
                 };
                 assert_eq!(declarations(&text, name), 1, "{name}");

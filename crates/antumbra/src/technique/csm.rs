@@ -8,11 +8,11 @@
 //! Annen, Mertens, Bekaert, Seidel, Kautz 2007, "Convolution shadow maps". Eq. 11 there has the
 //! sign of d − z reversed; this is Eq. 13 and 14.
 
-use super::{Binding, Constant, Family, Map, Page, Technique, Uniform};
+use super::{Binding, Combine, Constant, Encode, Family, Map, Page, Technique, Uniform};
 use crate::{
     capabilities::Capabilities,
     error::Unsupported,
-    filter::Filter,
+    filter::{Filter, Sampling, Values},
     parameter::{Field, Parameter, choice},
 };
 use std::f64::consts::PI;
@@ -31,12 +31,26 @@ choice! {
     }
 }
 
+choice! {
+    /// What coefficients are stored in.
+    Storage {
+        /// 8 bits, as in the paper.
+        Unorm8 = "unorm8",
+        /// 16-bit floats: twice the memory, to see that 8 bits suffice.
+        Float16 = "float16",
+        /// 32-bit floats: four times the memory.
+        Float32 = "float32",
+    }
+}
+
 /// Convolution shadow maps. ⌈M/2⌉ filtered lookups; 4·⌈M/2⌉ bytes per texel.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Csm {
-    /// Terms of the series, M, 1 to 16.
+    /// Terms of the series, M, 1 to 32; the paper has up to 16.
     pub terms: u32,
+    /// What coefficients are stored in.
+    pub storage: Storage,
     /// Attenuation α: term k is weighted by exp(−α (k/M)²) against ringing.
     pub attenuation: f32,
     /// How lit surfaces are lifted.
@@ -49,15 +63,39 @@ pub struct Csm {
 
 impl Default for Csm {
     fn default() -> Self {
-        Self { terms: 16, attenuation: 1.0, lift: Lift::Offset, offset: 0.0, filter: Filter::default() }
+        Self {
+            terms: 16,
+            storage: Storage::Unorm8,
+            attenuation: 1.0,
+            lift: Lift::Offset,
+            offset: 0.0,
+            filter: Filter::default(),
+        }
     }
 }
-
-const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
 impl Csm {
     fn layers(&self) -> u32 {
         self.terms.div_ceil(2)
+    }
+
+    fn values(&self) -> Values {
+        use wgpu::TextureFormat as F;
+        let (format, bits) = match self.storage {
+            Storage::Unorm8 => (F::Rgba8Unorm, 8),
+            Storage::Float16 => (F::Rgba16Float, 11),
+            Storage::Float32 => (F::Rgba32Float, 24),
+        };
+        Values { format, layers: self.layers(), ranges: vec![[0.0, 1.0]; 4], bits }
+    }
+
+    /// Largest error of a stored coefficient, which lies in \[−1,1].
+    fn rounding(&self) -> f64 {
+        match self.storage {
+            Storage::Unorm8 => 1.0 / 255.0,
+            Storage::Float16 => 2f64.powi(-10),
+            Storage::Float32 => 2f64.powi(-20),
+        }
     }
 
     /// exp(−α (k/M)²), k = 1..M.
@@ -118,7 +156,8 @@ impl Technique for Csm {
     }
     fn parameters(&mut self) -> Vec<Parameter<'_>> {
         let own = vec![
-            Parameter::new("terms", "", Field::Count(&mut self.terms, 1..=16), "terms of the Fourier series, M"),
+            Parameter::new("terms", "", Field::Count(&mut self.terms, 1..=32), "terms of the Fourier series, M"),
+            Parameter::new("storage", "", Field::Choice(&mut self.storage), "what coefficients are stored in"),
             Parameter::new(
                 "attenuation",
                 "",
@@ -136,13 +175,8 @@ impl Technique for Csm {
         own.into_iter().chain(self.filter.parameters()).collect()
     }
     fn maps(&self, _: &Capabilities) -> Result<Vec<Map>, Unsupported> {
-        Ok(vec![Map {
-            name: "basis",
-            format: FORMAT,
-            layers: self.layers(),
-            encode: "csm_encode",
-            passes: self.filter.passes(),
-        }])
+        let encode = Encode::Texel("csm_encode");
+        Ok(vec![self.filter.map("basis", encode, self.values(), Combine::Mean)])
     }
     fn bindings(&self) -> Vec<Binding> {
         vec![Binding::Map(0), Binding::Sampler]
@@ -162,15 +196,15 @@ impl Technique for Csm {
             .collect();
         weights.resize(2 * self.layers() as usize, 0.0);
         let own = [Constant::Count("csm_terms", self.terms), Constant::Array("csm_weights", weights)];
-        own.into_iter().chain(self.filter.constants()).collect()
+        own.into_iter().chain(self.filter.constants(&self.values(), Combine::Mean)).collect()
     }
     fn parts(&self, device: &Capabilities) -> Vec<&'static str> {
-        self.filter.parts(device, FORMAT)
+        self.filter.parts(device, &self.values(), Combine::Mean)
     }
     fn reach_texels(&self) -> f32 {
         self.filter.reach_texels()
     }
-    /// Overshoot of the series beyond its ramps, and half a step of 8 bits in every term.
+    /// Overshoot of the series beyond its ramps, and the rounding of every term.
     fn ripple(&self) -> f32 {
         // With very few terms the ramps meet, and the farthest lit receivers are on the second one.
         let start = f64::from(self.ramp());
@@ -181,9 +215,15 @@ impl Technique for Csm {
             .fold(0.0, f64::max);
         let quantisation: f64 = (1..=self.terms)
             .zip(self.attenuations())
-            .map(|(k, a)| 2.0 * a / (PI * (2.0 * f64::from(k) - 1.0)) / 255.0 * std::f64::consts::SQRT_2)
+            .map(|(k, a)| 2.0 * a / (PI * (2.0 * f64::from(k) - 1.0)) * self.rounding() * std::f64::consts::SQRT_2)
             .sum();
         ((ringing + quantisation) * if matches!(self.lift, Lift::Scale | Lift::Both) { 2.0 } else { 1.0 }) as f32
+    }
+    fn stored_zero(&self, _: usize) -> f32 {
+        if self.filter.sampling == Sampling::Summed { 0.0 } else { 0.5 }
+    }
+    fn lookups(&self) -> u32 {
+        self.layers() * self.filter.lookups(&self.values())
     }
     fn boxed(&self) -> Box<dyn Technique> {
         Box::new(*self)

@@ -3,35 +3,157 @@
 //! A receiver is never in front of the nearest caster, so the step of the shadow test may be
 //! replaced by an exponential decay behind it, and e^(−c(d−z)) separates into a factor of the
 //! receiver and one of the map. Where the kernel reaches casters behind the receiver the product
-//! exceeds one and is clamped: too bright there, and it needs no bias on tilted receivers.
+//! exceeds one: too bright there, unless the pixel is found out and filtered by other means. It needs
+//! no bias on tilted receivers.
 //!
-//! Annen, Mertens, Seidel, Flerackers, Kautz 2008, "Exponential shadow maps".
+//! # Storage
+//! e^(c z) and e^(−c d) must both be normal numbers: c up to 87 in 32-bit floats. Filtering the
+//! logarithm instead, with the log of the sum of powers in place of every sum, allows 16 bits per
+//! texel and any c, for more arithmetic; c then only has to leave the rounding of z invisible.
+//!
+//! Annen, Mertens, Seidel, Flerackers, Kautz 2008, "Exponential shadow maps". Logarithms: Salvi
+//! 2008, "Rendering filtered shadows with exponential shadow maps".
 
-use super::{Binding, Constant, Family, Map, Page, Technique, Uniform};
+use super::{Binding, Class, Combine, Constant, Encode, Family, Map, Page, Technique, Uniform};
 use crate::{
     capabilities::Capabilities,
     error::Unsupported,
-    filter::Filter,
-    parameter::{Field, Parameter},
+    filter::{Filter, Sampling, Values},
+    parameter::{Field, Parameter, choice},
 };
+use wgpu::TextureFormat;
 
-/// Exponential shadow maps. 1 filtered lookup; 4 bytes per texel (one 32-bit float).
+choice! {
+    /// What a texel holds. Summed-area tables always hold powers, in whole numbers.
+    Storage {
+        /// e^(c z) in a 32-bit float.
+        Powers = "powers",
+        /// z in a 32-bit float, filtered logarithmically.
+        Log32 = "log32",
+        /// z in a 16-bit float, filtered logarithmically: half the memory; rounds z by up to 1/4096.
+        LogHalf = "log_half",
+        /// z in 16 bits, filtered logarithmically: half the memory; rounds z by 1/131072. Needs
+        /// `TEXTURE_FORMAT_16BIT_NORM`, and takes 32-bit floats without.
+        Log16 = "log16",
+    }
+}
+
+choice! {
+    /// How pixels are found whose kernel reaches casters behind the receiver [section 3.3].
+    Classifier {
+        /// Not at all: the product is clamped.
+        None = "none",
+        /// By a product above 1 + ε. Free; misses some.
+        Threshold = "threshold",
+        /// By the farthest caster in the kernel, kept in a second map with greatest-value mips (and
+        /// widened by the blur's kernel). Misses none; 4 more bytes per texel.
+        ZMax = "zmax",
+    }
+}
+
+choice! {
+    /// What is done with those pixels.
+    Custom {
+        /// Four nearest texels, clamped one by one, then interpolated. Not with summed-area tables.
+        Four = "four",
+        /// Nothing: lit.
+        None = "none",
+    }
+}
+
+/// Exponential shadow maps. 1 filtered lookup; 4 bytes per texel (one 32-bit float), 2 with 16-bit
+/// logarithms. Z-Max adds 4 bytes and 4 lookups, custom filtering 4 lookups where pixels fail.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Esm {
-    /// Steepness per depth range. 87 is the largest that keeps e^c and e^−c normal 32-bit floats.
+    /// Steepness per depth range, up to [`Esm::steepest`]; 0 for 80, or 72 in a summed-area table.
     pub c: f32,
+    /// What a texel holds.
+    pub storage: Storage,
+    /// How failing pixels are found.
+    pub classifier: Classifier,
+    /// ε: by how much the product may exceed one before a pixel counts as failing.
+    pub epsilon: f32,
+    /// For Z-Max: how many texels of the receiver's own slope, in x and in y, a caster may lie behind
+    /// it before the pixel counts as failing, beside what ε allows.
+    pub offset_texels: f32,
+    /// What is done with failing pixels.
+    pub custom: Custom,
     /// Blur, mips and sampling.
     pub filter: Filter,
 }
 
 impl Default for Esm {
     fn default() -> Self {
-        Self { c: 80.0, filter: Filter::default() }
+        Self {
+            c: 0.0,
+            storage: Storage::Powers,
+            classifier: Classifier::None,
+            epsilon: 0.1,
+            offset_texels: 1.0,
+            custom: Custom::Four,
+            filter: Filter::default(),
+        }
     }
 }
 
-const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R32Float;
+/// Bits of the powers in a summed-area table: four words, less what the sum over a box takes.
+const SUMMED_BITS: u32 = 112;
+
+impl Esm {
+    /// The largest c that this storage holds: 87 where e^c and e^−c must be normal 32-bit floats; 72
+    /// in a summed-area table, whose 112 bits then hold e^−c in 8 bits; 1000 for logarithms, where
+    /// 16-bit z are wrong by less than one percent of the result.
+    #[must_use]
+    pub fn steepest(&self) -> f32 {
+        match (self.filter.sampling, self.storage) {
+            (Sampling::Summed, _) => 72.0,
+            (_, Storage::Powers) => 87.0,
+            (_, Storage::LogHalf) => 200.0,
+            (_, Storage::Log32 | Storage::Log16) => 1000.0,
+        }
+    }
+
+    /// The c in use.
+    #[must_use]
+    pub fn steepness(&self) -> f32 {
+        if self.c > 0.0 { self.c } else { self.steepest().min(80.0) }
+    }
+
+    fn is_logarithmic(&self) -> bool {
+        self.storage != Storage::Powers && self.filter.sampling != Sampling::Summed
+    }
+
+    fn combine(&self) -> Combine {
+        if self.is_logarithmic() { Combine::LogMean(self.steepness()) } else { Combine::Mean }
+    }
+
+    fn values(&self, device: Option<&Capabilities>) -> Values {
+        let renders = device.is_none_or(|d| d.renders(TextureFormat::R16Unorm));
+        let format = match self.storage {
+            Storage::LogHalf => TextureFormat::R16Float,
+            Storage::Log16 if renders => TextureFormat::R16Unorm,
+            _ => TextureFormat::R32Float,
+        };
+        // Powers in shares of the greatest: a whole number must not overflow at the far plane.
+        Values { format, layers: 1, ranges: vec![[0.0, self.steepness().exp()]], bits: SUMMED_BITS }
+    }
+
+    /// The second map of Z-Max: depth, widened like the first.
+    fn farthest(&self) -> Map {
+        let mut passes = self.filter.passes(Combine::Greatest);
+        if self.filter.sampling == Sampling::Summed {
+            passes.push(super::Pass::Mips(Combine::Greatest));
+        }
+        Map {
+            name: "farthest depth",
+            format: TextureFormat::R32Float,
+            layers: 1,
+            encode: Encode::Texel("esm_depth"),
+            passes,
+        }
+    }
+}
 
 impl Technique for Esm {
     fn page(&self) -> Page {
@@ -43,34 +165,101 @@ impl Technique for Esm {
         }
     }
     fn parameters(&mut self) -> Vec<Parameter<'_>> {
-        let c = Parameter::new(
-            "c",
-            "1/depth range",
-            Field::Number(&mut self.c, 1.0..=87.0),
-            "steepness of the decay behind a caster",
-        );
-        std::iter::once(c).chain(self.filter.parameters()).collect()
+        let steepest = self.steepest();
+        let own = vec![
+            Parameter::new(
+                "c",
+                "1/depth range",
+                Field::Number(&mut self.c, 0.0..=steepest),
+                "steepness of the decay behind a caster; 0 is 80, or 72 with sampling=summed",
+            ),
+            Parameter::new(
+                "storage",
+                "",
+                Field::Choice(&mut self.storage),
+                "e^(c z), or z filtered logarithmically; c is at most 87 for powers, 72 summed, 200 for log_half, else 1000",
+            ),
+            Parameter::new(
+                "classifier",
+                "",
+                Field::Choice(&mut self.classifier),
+                "how pixels are found whose kernel reaches casters behind the receiver",
+            ),
+            Parameter::new(
+                "epsilon",
+                "",
+                Field::Number(&mut self.epsilon, 0.0..=10.0),
+                "a result above 1 + ε fails",
+            ),
+            Parameter::new(
+                "offset_texels",
+                "texels",
+                Field::Number(&mut self.offset_texels, 0.0..=64.0),
+                "so many texels of its own slope behind the receiver do not fail; only with classifier=zmax",
+            ),
+            Parameter::new("custom", "", Field::Choice(&mut self.custom), "how failing pixels are filtered"),
+        ];
+        own.into_iter().chain(self.filter.parameters()).collect()
     }
-    fn maps(&self, _: &Capabilities) -> Result<Vec<Map>, Unsupported> {
-        Ok(vec![Map { name: "exponentials", format: FORMAT, layers: 1, encode: "esm_encode", passes: self.filter.passes() }])
+    fn maps(&self, device: &Capabilities) -> Result<Vec<Map>, Unsupported> {
+        let name = if self.is_logarithmic() { "depth" } else { "exponentials" };
+        let encode = Encode::Texel("esm_encode");
+        let first = self.filter.map(name, encode, self.values(Some(device)), self.combine());
+        let second = (self.classifier == Classifier::ZMax).then(|| self.farthest());
+        Ok(std::iter::once(first).chain(second).collect())
+    }
+    fn fallbacks(&self, device: &Capabilities) -> Vec<String> {
+        let mut told = Vec::new();
+        let summed = self.filter.sampling == Sampling::Summed;
+        if self.storage == Storage::Log16 && !summed && !device.renders(TextureFormat::R16Unorm) {
+            told.push("depth in 32-bit floats instead of 16 bits, twice the memory: R16Unorm cannot be rendered to without TEXTURE_FORMAT_16BIT_NORM and TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES".into());
+        }
+        if summed && self.classifier != Classifier::None && self.custom == Custom::Four {
+            told.push("no custom filtering: a summed-area table has no texels to clamp one by one".into());
+        }
+        told
     }
     fn bindings(&self) -> Vec<Binding> {
-        vec![Binding::Map(0), Binding::Sampler]
+        let second = (self.classifier == Classifier::ZMax).then_some(Binding::Map(1));
+        [Binding::Map(0), Binding::Sampler].into_iter().chain(second).collect()
     }
     fn wgsl(&self) -> &'static str {
-        include_str!("esm.wgsl")
+        macro_rules! files {
+            ($($file:literal),*) => { concat!(include_str!("esm.wgsl"), $(include_str!($file)),*) };
+        }
+        let four = self.custom == Custom::Four && self.filter.sampling != Sampling::Summed;
+        match (self.classifier, four) {
+            (Classifier::None, _) => files!("esm/trusting.wgsl"),
+            (Classifier::Threshold, true) => files!("esm/custom.wgsl", "esm/threshold.wgsl"),
+            (Classifier::Threshold, false) => files!("esm/clamped.wgsl", "esm/threshold.wgsl"),
+            (Classifier::ZMax, true) => files!("esm/custom.wgsl", "esm/zmax.wgsl"),
+            (Classifier::ZMax, false) => files!("esm/clamped.wgsl", "esm/zmax.wgsl"),
+        }
     }
     fn uniforms(&self) -> Vec<Uniform> {
-        vec![("c", self.c)]
+        // Blurring widens the map of farthest depths by half a kernel, interpolation by a texel.
+        let offset = self.offset_texels * self.filter.reach_texels();
+        vec![("c", self.steepness()), ("epsilon", self.epsilon), ("offset", offset)]
     }
     fn constants(&self) -> Vec<Constant> {
-        self.filter.constants()
+        let own = Constant::Count("esm_logarithms", u32::from(self.is_logarithmic()));
+        let filter = self.filter.constants(&self.values(None), self.combine());
+        std::iter::once(own).chain(filter).collect()
     }
     fn parts(&self, device: &Capabilities) -> Vec<&'static str> {
-        self.filter.parts(device, FORMAT)
+        self.filter.parts(device, &self.values(Some(device)), self.combine())
+    }
+    fn classes(&self) -> &'static [Class] {
+        const FAILED: [Class; 1] = [Class { name: "assumption violated", colour: [224, 32, 32] }];
+        if self.classifier == Classifier::None { &[] } else { &FAILED }
     }
     fn reach_texels(&self) -> f32 {
         self.filter.reach_texels()
+    }
+    /// Where no pixel fails: custom filtering takes four more.
+    fn lookups(&self) -> u32 {
+        let classifying = if self.classifier == Classifier::ZMax { 4 } else { 0 };
+        self.filter.lookups(&self.values(None)) + classifying
     }
     fn boxed(&self) -> Box<dyn Technique> {
         Box::new(*self)
@@ -84,21 +273,48 @@ pub mod reference {
     pub fn encode(z: f64, c: f64) -> f64 {
         (c * z).exp()
     }
-    /// min(e^(−c d) · B, 1).
+    /// e^(−c d) · B, unclamped.
     #[must_use]
-    pub fn bound(d: f64, filtered: f64, c: f64) -> f64 {
-        ((-c * d).exp() * filtered).clamp(0.0, 1.0)
+    pub fn ratio(d: f64, filtered: f64, c: f64) -> f64 {
+        (-c * d).exp() * filtered
+    }
+    /// The logarithm over c of the weighted mean of powers.
+    #[must_use]
+    pub fn log_mean(depths: &[(f64, f64)], c: f64) -> f64 {
+        depths.iter().map(|(weight, z)| weight * (c * z).exp()).sum::<f64>().ln() / c
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::*;
+
     #[test]
     fn the_largest_exponent_keeps_both_factors_normal() {
         let normal = |c: f32| c.exp().is_finite() && (-c).exp() >= f32::MIN_POSITIVE;
-        assert!(normal(87.0));
+        assert!(normal(Esm::default().steepest()));
         // e^88 still fits, but e^−88 is denormal, which GPUs flush to zero: everything would be black.
         assert!(!normal(88.0));
         assert!(!89f32.exp().is_finite());
+    }
+
+    #[test]
+    fn the_largest_exponent_in_a_table_keeps_eight_bits() {
+        let mut esm = Esm::default();
+        esm.filter.sampling = Sampling::Summed;
+        let bits = |c: f32| f64::from(SUMMED_BITS) - f64::from(c) / std::f64::consts::LN_2;
+        assert!(bits(esm.steepest()) >= 8.0 && bits(esm.steepest() + 1.0) < 8.0);
+    }
+
+    #[test]
+    fn steepness_above_what_storage_holds_is_refused() {
+        let check = |spec: &str| crate::technique::parse(spec).map(|_| ()).map_err(|e| e.to_string());
+        check("esm.c=87").unwrap();
+        check("esm.storage=log16,c=1000").unwrap();
+        check("esm.sampling=summed").unwrap();
+        assert_eq!(check("esm.c=88").unwrap_err(), "esm.c = 88 is out of range; allowed: 0 to 87");
+        assert!(check("esm.sampling=summed,c=80").unwrap_err().ends_with("allowed: 0 to 72"));
+        assert!(check("esm.storage=log_half,c=201").is_err());
+        assert!(check("esm.epsilon=-0.1").is_err());
     }
 }

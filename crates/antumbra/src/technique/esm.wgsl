@@ -1,17 +1,20 @@
 //! needs lookup
 
-/// e^(c z) of linear depth [Annen et al. 2008, Eq. 3].
-fn esm_encode(depths: mat3x3f, layer: u32, c: f32) -> vec4f {
-    return vec4f(exp(c * depths[1][1]), 0.0, 0.0, 0.0);
+/// 0 if the map holds powers e^(c z), 1 if it holds z, filtered as if it held powers.
+const esm_logarithms: u32 = 0;
+
+/// What is stored of linear depth: e^(c z) [Annen et al. 2008, Eq. 3], or its logarithm over c.
+fn esm_encode(depth: f32, layer: u32, c: f32, epsilon: f32, offset: f32) -> vec4f {
+    if esm_logarithms == 1u {
+        return vec4f(depth, 0.0, 0.0, 0.0);
+    }
+    return vec4f(exp(c * depth), 0.0, 0.0, 0.0);
 }
 
-/// e^(−c d) times the filtered e^(c z), clamped to [0,1] [Annen et al. 2008, Eq. 4].
-fn esm_bound(depth: f32, filtered: f32, c: f32) -> f32 {
-    return clamp(exp(-c * depth) * filtered, 0.0, 1.0);
-}
-
-/// One filtered lookup.
-fn esm_visibility(map: texture_2d_array<f32>, map_sampler: sampler, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f, c: f32) -> f32 {
-    let filtered = lookup_filtered(map, map_sampler, uv, view, ddx, ddy).x;
-    return esm_bound(depth, filtered, c);
+/// e^(−c d) times the filtered e^(c z) [Eq. 4]: above 1 where the kernel reaches beyond the receiver.
+fn esm_ratio(depth: f32, filtered: f32, c: f32) -> f32 {
+    if esm_logarithms == 1u {
+        return exp(min(c * (filtered - depth), 80.0));
+    }
+    return exp(-c * depth) * filtered;
 }

@@ -17,11 +17,11 @@
 //!
 //! Lauritzen & McCool 2008, "Layered variance shadow maps", section 5.
 
-use super::{Binding, Constant, Family, Map, Page, Technique, Uniform};
+use super::{Binding, Combine, Constant, Encode, Family, Map, Page, Technique, Uniform};
 use crate::{
     capabilities::Capabilities,
     error::Unsupported,
-    filter::Filter,
+    filter::{Filter, Sampling, Values},
     parameter::{Field, Parameter, choice},
 };
 
@@ -81,6 +81,9 @@ pub struct Evsm {
     pub format: Format,
     /// Least variance, in squares of the (unwarped) depth range.
     pub least_variance: f32,
+    /// Factor of the slope term: the least variance gains ¼(z_x² + z_y²), the variance of the
+    /// receiver's plane within a texel, which keeps slopes lit without bias.
+    pub slope: f32,
     /// Light-bleeding reduction, 0 to 0.99; 0 is none.
     pub reduction: f32,
     /// Blur, mips and sampling.
@@ -95,6 +98,7 @@ impl Default for Evsm {
             moments: Moments::Four,
             format: Format::Float32,
             least_variance: 1e-6,
+            slope: 1.0,
             reduction: 0.0,
             filter: Filter::default(),
         }
@@ -102,12 +106,23 @@ impl Default for Evsm {
 }
 
 impl Evsm {
+    /// Largest exponent: that of the format, or in a summed-area table 6.9, whose squares, from e^(−2c)
+    /// to e^(2c), leave 8 of 48 bits.
+    #[must_use]
+    pub fn limit(&self) -> f32 {
+        match self.filter.sampling {
+            Sampling::Summed => 6.9,
+            _ => self.format.limit(),
+        }
+    }
+
     /// The exponents in use: c₊, c₋.
     #[must_use]
     pub fn exponents(&self) -> [f32; 2] {
-        let usual = match self.format {
-            Format::Float32 => [40.0, 5.0],
-            Format::Float16 => [5.5, 5.0],
+        let usual = match (self.filter.sampling, self.format) {
+            (Sampling::Summed, _) => [6.9, 5.0],
+            (_, Format::Float32) => [40.0, 5.0],
+            (_, Format::Float16) => [5.5, 5.0],
         };
         let or = |c: f32, usual| if c > 0.0 { c } else { usual };
         [or(self.positive, usual[0]), or(self.negative, usual[1])]
@@ -121,6 +136,17 @@ impl Evsm {
     pub fn rounding(&self) -> [f32; 2] {
         let [relative, absolute] = self.format.roundings();
         [2.0 * 3.0 * relative, 2.0 * absolute]
+    }
+
+    fn values(&self) -> Values {
+        let [p, n] = self.exponents();
+        let positive = [[0.0, p.exp()], [0.0, (2.0 * p).exp()]];
+        let negative = [[0.0, -n.exp()], [0.0, (2.0 * n).exp()]];
+        let ranges = match self.moments {
+            Moments::Two => positive.to_vec(),
+            Moments::Four => [positive, negative].concat(),
+        };
+        Values { format: self.texels(), layers: 1, ranges, bits: 48 }
     }
 
     fn texels(&self) -> wgpu::TextureFormat {
@@ -144,13 +170,13 @@ impl Technique for Evsm {
         }
     }
     fn parameters(&mut self) -> Vec<Parameter<'_>> {
-        let limit = self.format.limit();
+        let limit = self.limit();
         let own = vec![
             Parameter::new(
                 "positive",
                 "1/half depth range",
                 Field::Number(&mut self.positive, 0.0..=limit),
-                "exponent of e^(c z'); 0 is 40, or 5.5 with format=float16",
+                "exponent of e^(c z'); 0 is 40, or 5.5 with format=float16, 6.9 with sampling=summed",
             ),
             Parameter::new(
                 "negative",
@@ -172,6 +198,12 @@ impl Technique for Evsm {
                 "variance is kept at or above this",
             ),
             Parameter::new(
+                "slope",
+                "",
+                Field::Number(&mut self.slope, 0.0..=4.0),
+                "times ¼(z_x² + z_y²), the variance of a plane within a texel: keeps slopes lit without bias",
+            ),
+            Parameter::new(
                 "reduction",
                 "",
                 Field::Number(&mut self.reduction, 0.0..=0.99),
@@ -181,13 +213,8 @@ impl Technique for Evsm {
         own.into_iter().chain(self.filter.parameters()).collect()
     }
     fn maps(&self, _: &Capabilities) -> Result<Vec<Map>, Unsupported> {
-        Ok(vec![Map {
-            name: "moments",
-            format: self.texels(),
-            layers: 1,
-            encode: "evsm_encode",
-            passes: self.filter.passes(),
-        }])
+        let encode = Encode::Texel("evsm_encode");
+        Ok(vec![self.filter.map("moments", encode, self.values(), Combine::Mean)])
     }
     fn bindings(&self) -> Vec<Binding> {
         vec![Binding::Map(0), Binding::Sampler]
@@ -203,6 +230,7 @@ impl Technique for Evsm {
             ("least_variance", self.least_variance),
             ("rounding", self.rounding()[0]),
             ("denormal", self.rounding()[1]),
+            ("slope", self.slope),
             ("reduction", self.reduction),
         ]
     }
@@ -212,10 +240,10 @@ impl Technique for Evsm {
             Moments::Four => 2,
         };
         let own = Constant::Count("evsm_warps", warps);
-        std::iter::once(own).chain(self.filter.constants()).collect()
+        std::iter::once(own).chain(self.filter.constants(&self.values(), Combine::Mean)).collect()
     }
     fn parts(&self, device: &Capabilities) -> Vec<&'static str> {
-        self.filter.parts(device, self.texels())
+        self.filter.parts(device, &self.values(), Combine::Mean)
     }
     fn reach_texels(&self) -> f32 {
         self.filter.reach_texels()
@@ -226,6 +254,9 @@ impl Technique for Evsm {
         let least = (4.0 * c * c * self.least_variance).max(self.rounding()[0]);
         let behind = (0.2 * c).exp() - 1.0;
         (least / (least + behind * behind) - self.reduction).max(0.0) / (1.0 - self.reduction)
+    }
+    fn lookups(&self) -> u32 {
+        self.filter.lookups(&self.values())
     }
     fn boxed(&self) -> Box<dyn Technique> {
         Box::new(*self)

@@ -10,8 +10,8 @@ fn evsm_warp(depth: f32, positive: f32, negative: f32) -> vec2f {
 }
 
 /// Both warps of linear depth, each with its square [Lauritzen & McCool 2008].
-fn evsm_encode(depths: mat3x3f, layer: u32, positive: f32, negative: f32, least_variance: f32, rounding: f32, denormal: f32, reduction: f32) -> vec4f {
-    let w = evsm_warp(depths[1][1], positive, negative);
+fn evsm_encode(depth: f32, layer: u32, positive: f32, negative: f32, least_variance: f32, rounding: f32, denormal: f32, slope: f32, reduction: f32) -> vec4f {
+    let w = evsm_warp(depth, positive, negative);
     return vec4f(w.x, w.x * w.x, w.y, w.y * w.y);
 }
 
@@ -36,8 +36,9 @@ fn evsm_bound(depth: f32, moments: vec4f, positive: f32, negative: f32, least_va
     return chebyshev_reduce(bound, reduction);
 }
 
-/// One filtered lookup.
-fn evsm_visibility(map: texture_2d_array<f32>, map_sampler: sampler, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f, positive: f32, negative: f32, least_variance: f32, rounding: f32, denormal: f32, reduction: f32) -> f32 {
+/// One filtered lookup; the receiver's own slope widens the least variance by the chain rule.
+fn evsm_visibility(map: LookupMap, map_sampler: sampler, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f, positive: f32, negative: f32, least_variance: f32, rounding: f32, denormal: f32, slope: f32, reduction: f32) -> f32 {
+    let least = least_variance + slope * chebyshev_slope(plane, vec2f(textureDimensions(map)));
     let moments = lookup_filtered(map, map_sampler, uv, view, ddx, ddy);
-    return evsm_bound(depth, moments, positive, negative, least_variance, rounding, denormal, reduction);
+    return evsm_bound(depth, moments, positive, negative, least, rounding, denormal, reduction);
 }

@@ -39,6 +39,9 @@ impl Technique for Hard {
     fn reach_texels(&self) -> f32 {
         0.5
     }
+    fn lookups(&self) -> u32 {
+        1
+    }
     fn boxed(&self) -> Box<dyn Technique> {
         Box::new(*self)
     }

@@ -15,13 +15,26 @@
 //!
 //! Lauritzen & McCool 2008, "Layered variance shadow maps", section 4.
 
-use super::{Binding, Constant, Family, Map, Page, Technique, Uniform};
+use super::{Binding, Combine, Constant, Encode, Family, Map, Page, Technique, Uniform};
 use crate::{
     capabilities::Capabilities,
     error::Unsupported,
-    filter::Filter,
-    parameter::{Field, Parameter},
+    filter::{Filter, Values},
+    parameter::{Field, Parameter, choice},
 };
+
+choice! {
+    /// Which intervals bound the lit share.
+    Choose {
+        /// The least bound of the receiver's interval and of all in front of it.
+        Least = "least",
+        /// The receiver's interval alone: one lookup, as published. Casters in front of the interval are
+        /// clamped to its start, which still shadows.
+        Receiver = "receiver",
+        /// The same, blended with the interval before across the overlap: no seams.
+        Blend = "blend",
+    }
+}
 
 /// Layered variance shadow maps. ⌈L/2⌉ filtered lookups at most; 16·⌈L/2⌉ bytes per texel (four
 /// 32-bit floats for two intervals).
@@ -34,8 +47,13 @@ pub struct Lvsm {
     pub overlap: f32,
     /// Least variance, in squares of the depth range.
     pub least_variance: f32,
+    /// Factor of the slope term: the least variance gains ¼(z_x² + z_y²), the variance of the
+    /// receiver's plane within a texel, which keeps slopes lit without bias.
+    pub slope: f32,
     /// Light-bleeding reduction, 0 to 0.99; 0 is none.
     pub reduction: f32,
+    /// Which intervals bound the lit share.
+    pub choose: Choose,
     /// Blur, mips and sampling.
     pub filter: Filter,
 }
@@ -46,13 +64,21 @@ impl Default for Lvsm {
             intervals: 4,
             overlap: 0.1,
             least_variance: 1e-6,
+            slope: 1.0,
             reduction: 0.0,
+            choose: Choose::Least,
             filter: Filter::default(),
         }
     }
 }
 
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
+
+impl Lvsm {
+    fn values(&self) -> Values {
+        Values { format: FORMAT, layers: self.intervals.div_ceil(2), ranges: vec![[0.0, 1.0]; 4], bits: 24 }
+    }
+}
 
 impl Technique for Lvsm {
     fn page(&self) -> Page {
@@ -84,6 +110,13 @@ impl Technique for Lvsm {
                 "variance is kept at or above this",
             ),
             Parameter::new(
+                "slope",
+                "",
+                Field::Number(&mut self.slope, 0.0..=4.0),
+                "times ¼(z_x² + z_y²), the variance of a plane within a texel: keeps slopes lit without bias",
+            ),
+            Parameter::new("choose", "", Field::Choice(&mut self.choose), "which intervals bound the lit share"),
+            Parameter::new(
                 "reduction",
                 "",
                 Field::Number(&mut self.reduction, 0.0..=0.99),
@@ -93,36 +126,55 @@ impl Technique for Lvsm {
         own.into_iter().chain(self.filter.parameters()).collect()
     }
     fn maps(&self, _: &Capabilities) -> Result<Vec<Map>, Unsupported> {
-        Ok(vec![Map {
-            name: "moments",
-            format: FORMAT,
-            layers: self.intervals.div_ceil(2),
-            encode: "lvsm_encode",
-            passes: self.filter.passes(),
-        }])
+        let encode = Encode::Texel("lvsm_encode");
+        Ok(vec![self.filter.map("moments", encode, self.values(), Combine::Mean)])
     }
     fn bindings(&self) -> Vec<Binding> {
         vec![Binding::Map(0), Binding::Sampler]
     }
     fn wgsl(&self) -> &'static str {
-        include_str!("lvsm.wgsl")
+        match self.choose {
+            Choose::Least => concat!(include_str!("lvsm.wgsl"), include_str!("lvsm/least.wgsl")),
+            Choose::Receiver => concat!(include_str!("lvsm.wgsl"), include_str!("lvsm/receiver.wgsl")),
+            Choose::Blend => concat!(include_str!("lvsm.wgsl"), include_str!("lvsm/blend.wgsl")),
+        }
     }
     fn uniforms(&self) -> Vec<Uniform> {
         vec![
             ("overlap", self.overlap),
             ("least_variance", self.least_variance),
+            ("slope", self.slope),
             ("reduction", self.reduction),
         ]
     }
     fn constants(&self) -> Vec<Constant> {
         let own = Constant::Count("lvsm_intervals", self.intervals);
-        std::iter::once(own).chain(self.filter.constants()).collect()
+        std::iter::once(own).chain(self.filter.constants(&self.values(), Combine::Mean)).collect()
     }
     fn parts(&self, device: &Capabilities) -> Vec<&'static str> {
-        self.filter.parts(device, FORMAT)
+        self.filter.parts(device, &self.values(), Combine::Mean)
     }
     fn reach_texels(&self) -> f32 {
         self.filter.reach_texels()
+    }
+    /// With one interval alone: what the least variance lets through at its start, where a caster is
+    /// clamped to the overlap's beginning.
+    fn ripple(&self) -> f32 {
+        let apart = self.overlap / self.intervals as f32;
+        let bound = self.least_variance / (self.least_variance + apart * apart).max(1e-12);
+        match self.choose {
+            Choose::Least => 0.0,
+            Choose::Receiver | Choose::Blend => (bound - self.reduction).max(0.0) / (1.0 - self.reduction),
+        }
+    }
+    /// Of a pixel in the last interval.
+    fn lookups(&self) -> u32 {
+        let boxes = match self.choose {
+            Choose::Least => self.intervals.div_ceil(2),
+            Choose::Receiver => 1,
+            Choose::Blend => 2,
+        };
+        boxes * self.filter.lookups(&self.values())
     }
     fn boxed(&self) -> Box<dyn Technique> {
         Box::new(*self)

@@ -12,9 +12,9 @@ fn lvsm_warp(depth: f32, i: u32, overlap: f32) -> f32 {
 
 /// Warped depth and its square for intervals 2·layer and 2·layer + 1 [Lauritzen & McCool 2008]. With
 /// an odd number the last is beyond all depths, so that it stores zeros.
-fn lvsm_encode(depths: mat3x3f, layer: u32, overlap: f32, least_variance: f32, reduction: f32) -> vec4f {
-    let a = lvsm_warp(depths[1][1], 2u * layer, overlap);
-    let b = lvsm_warp(depths[1][1], 2u * layer + 1u, overlap);
+fn lvsm_encode(depth: f32, layer: u32, overlap: f32, least_variance: f32, slope: f32, reduction: f32) -> vec4f {
+    let a = lvsm_warp(depth, 2u * layer, overlap);
+    let b = lvsm_warp(depth, 2u * layer + 1u, overlap);
     return vec4f(a, a * a, b, b * b);
 }
 
@@ -25,20 +25,4 @@ fn lvsm_one(depth: f32, moments: vec2f, i: u32, overlap: f32, least_variance: f3
     let slope = f32(lvsm_intervals) / (1.0 + 2.0 * overlap);
     let end = f32(i + 1u) / f32(lvsm_intervals);
     return chebyshev_bound(lvsm_warp(min(depth, end), i, overlap), moments, slope * slope * least_variance);
-}
-
-/// The least of all intervals' bounds: one filtered lookup for two of them. Intervals beyond the
-/// receiver bound nothing and are not read.
-fn lvsm_visibility(map: texture_2d_array<f32>, map_sampler: sampler, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f, overlap: f32, least_variance: f32, reduction: f32) -> f32 {
-    let layers = (lvsm_intervals + 1u) / 2u;
-    var bound = 1.0;
-    for (var layer = 0u; layer < layers; layer += 1u) {
-        if lvsm_warp(depth, 2u * layer, overlap) == 0.0 {
-            break;
-        }
-        let moments = lookup_filtered(map, map_sampler, uv, view * layers + layer, ddx, ddy);
-        bound = min(bound, lvsm_one(depth, moments.xy, 2u * layer, overlap, least_variance));
-        bound = min(bound, lvsm_one(depth, moments.zw, 2u * layer + 1u, overlap, least_variance));
-    }
-    return chebyshev_reduce(bound, reduction);
 }

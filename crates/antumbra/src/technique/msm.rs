@@ -39,11 +39,11 @@
 //! Peters & Klein 2015, "Moment shadow mapping"; Peters, Münstermann, Wetzstein, Klein 2017,
 //! "Improved moment shadow maps", for the transform on \[−1,1].
 
-use super::{Binding, Constant, Family, Map, Page, Technique, Uniform};
+use super::{Binding, Combine, Constant, Encode, Family, Map, Page, Technique, Uniform};
 use crate::{
     capabilities::Capabilities,
     error::Unsupported,
-    filter::Filter,
+    filter::{Filter, Values},
     parameter::{Field, Parameter, choice},
 };
 
@@ -92,6 +92,15 @@ impl Msm {
         }
     }
 
+    fn values(&self, device: Option<&Capabilities>) -> Values {
+        let format = device.map_or(wgpu::TextureFormat::Rgba32Float, |d| self.texels(d));
+        let (low, bits) = match self.format {
+            Format::Unorm16 => (0.0, 16),
+            Format::Float32 => (-1.0, 24),
+        };
+        Values { format, layers: 1, ranges: vec![[low, 1.0]; 4], bits }
+    }
+
     fn texels(&self, device: &Capabilities) -> wgpu::TextureFormat {
         match self.format {
             Format::Unorm16 if device.renders(wgpu::TextureFormat::Rgba16Unorm) => {
@@ -135,13 +144,8 @@ impl Technique for Msm {
         own.into_iter().chain(self.filter.parameters()).collect()
     }
     fn maps(&self, device: &Capabilities) -> Result<Vec<Map>, Unsupported> {
-        Ok(vec![Map {
-            name: "moments",
-            format: self.texels(device),
-            layers: 1,
-            encode: "msm_encode",
-            passes: self.filter.passes(),
-        }])
+        let encode = Encode::Texel("msm_encode");
+        Ok(vec![self.filter.map("moments", encode, self.values(Some(device)), Combine::Mean)])
     }
     fn fallbacks(&self, device: &Capabilities) -> Vec<String> {
         match (self.format, self.texels(device)) {
@@ -162,10 +166,10 @@ impl Technique for Msm {
     }
     fn constants(&self) -> Vec<Constant> {
         let own = Constant::Count("msm_transformed", u32::from(self.format == Format::Unorm16));
-        std::iter::once(own).chain(self.filter.constants()).collect()
+        std::iter::once(own).chain(self.filter.constants(&self.values(None), Combine::Mean)).collect()
     }
     fn parts(&self, device: &Capabilities) -> Vec<&'static str> {
-        self.filter.parts(device, self.texels(device))
+        self.filter.parts(device, &self.values(Some(device)), Combine::Mean)
     }
     fn reach_texels(&self) -> f32 {
         self.filter.reach_texels()
@@ -179,6 +183,9 @@ impl Technique for Msm {
         };
         let most = (0..=57).map(leak).fold(0.0, f64::max);
         (2.0 * most as f32 - self.reduction).max(0.0) / (1.0 - self.reduction)
+    }
+    fn lookups(&self) -> u32 {
+        self.filter.lookups(&self.values(None))
     }
     fn boxed(&self) -> Box<dyn Technique> {
         Box::new(*self)

@@ -25,8 +25,8 @@ fn msm_restore(t: vec4f) -> vec4f {
 }
 
 /// Moments of linear depth, as stored.
-fn msm_encode(depths: mat3x3f, layer: u32, moment_bias: f32, reduction: f32) -> vec4f {
-    let z = 2.0 * depths[1][1] - 1.0;
+fn msm_encode(depth: f32, layer: u32, moment_bias: f32, reduction: f32) -> vec4f {
+    let z = 2.0 * depth - 1.0;
     let square = z * z;
     let b = vec4f(z, square, square * z, square * square);
     if msm_transformed == 1u {
@@ -77,7 +77,7 @@ fn msm_bound(depth: f32, moments: vec4f, moment_bias: f32, reduction: f32) -> f3
 }
 
 /// One filtered lookup.
-fn msm_visibility(map: texture_2d_array<f32>, map_sampler: sampler, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f, moment_bias: f32, reduction: f32) -> f32 {
+fn msm_visibility(map: LookupMap, map_sampler: sampler, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f, moment_bias: f32, reduction: f32) -> f32 {
     var moments = lookup_filtered(map, map_sampler, uv, view, ddx, ddy);
     if msm_transformed == 1u {
         moments = msm_restore(moments);

@@ -98,6 +98,9 @@ impl Technique for Pcf {
     fn reach_texels(&self) -> f32 {
         self.kernel as f32 / 2.0 + 0.5
     }
+    fn lookups(&self) -> u32 {
+        self.kernel * self.kernel
+    }
     fn boxed(&self) -> Box<dyn Technique> {
         Box::new(*self)
     }

@@ -9,7 +9,9 @@
 //!
 //! Lecocq, Marvie, Sourimant, Gautron 2014, "Sub-Pixel Shadow Mapping".
 
-use super::{Bias, Binding, Caster, Constant, Coverage, DepthSpace, Family, Map, Page, Technique};
+use super::{
+    Bias, Binding, Caster, Class, Constant, Coverage, DepthSpace, Encode, Family, Map, Page, Technique,
+};
 use crate::{
     capabilities::Capabilities,
     error::Unsupported,
@@ -104,7 +106,7 @@ impl Technique for Spsm {
             name: "triangles",
             format: wgpu::TextureFormat::Rgba32Uint,
             layers: self.layers,
-            encode: "packing_texel",
+            encode: Encode::Texel("packing_texel"),
             passes: Vec::new(),
         }])
     }
@@ -112,7 +114,7 @@ impl Technique for Spsm {
         Caster::Triangles(&[Coverage::Touched, Coverage::Centre][..self.layers.min(2) as usize])
     }
     fn bindings(&self) -> Vec<Binding> {
-        vec![Binding::Words(0)]
+        vec![Binding::Map(0)]
     }
     fn wgsl(&self) -> &'static str {
         include_str!("spsm.wgsl")
@@ -136,6 +138,18 @@ impl Technique for Spsm {
     }
     fn reach_texels(&self) -> f32 {
         0.5
+    }
+    /// Nine texels per layer and its own first; silhouettes take as many again for each of their steps.
+    fn lookups(&self) -> u32 {
+        1 + 9 * self.layers
+    }
+    fn classes(&self) -> &'static [Class] {
+        const CLASSES: [Class; 3] = [
+            Class { name: "shadowed by its own texel's triangle", colour: [90, 110, 160] },
+            Class { name: "shadowed by a triangle of 3×3 texels", colour: [40, 160, 60] },
+            Class { name: "silhouette recovered", colour: [224, 32, 32] },
+        ];
+        &CLASSES
     }
     fn boxed(&self) -> Box<dyn Technique> {
         Box::new(*self)

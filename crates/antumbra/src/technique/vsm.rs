@@ -6,15 +6,41 @@
 //!
 //! Donnelly & Lauritzen 2006, "Variance shadow maps".
 
-use super::{Binding, Constant, Family, Map, Page, Technique, Uniform};
+use super::{Binding, Combine, Constant, Encode, Family, Map, Page, Technique, Uniform};
 use crate::{
     capabilities::Capabilities,
     error::Unsupported,
-    filter::Filter,
-    parameter::{Field, Parameter},
+    filter::{Filter, Values},
+    parameter::{Field, Parameter, choice},
 };
+use wgpu::TextureFormat;
 
-/// Variance shadow maps. 1 filtered lookup; 8 bytes per texel (two 32-bit floats).
+choice! {
+    /// What moments are stored in.
+    Storage {
+        /// 32-bit floats.
+        Float32 = "float32",
+        /// 16-bit floats: half the memory; squares are rounded by up to 1/1024, so that light bleeds
+        /// widely.
+        Float16 = "float16",
+        /// 16 bits: half the memory; squares are rounded by 1/131072. Needs
+        /// `TEXTURE_FORMAT_16BIT_NORM` and `TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES`, and takes
+        /// 32-bit floats without.
+        Unorm16 = "unorm16",
+    }
+}
+
+choice! {
+    /// Whose slope keeps tilted surfaces from shadowing themselves.
+    SlopeOf {
+        /// The receiver's, exact at silhouettes, added to the least variance.
+        Receiver = "receiver",
+        /// The casters', from neighbouring texels, added to the square, as published.
+        Caster = "caster",
+    }
+}
+
+/// Variance shadow maps. 1 filtered lookup; 8 bytes per texel (two 32-bit floats), 4 with 16 bits.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Vsm {
@@ -24,17 +50,51 @@ pub struct Vsm {
     pub reduction: f32,
     /// Factor of the slope term ¼(z_x² + z_y²).
     pub slope: f32,
+    /// Whose slope.
+    pub slope_of: SlopeOf,
+    /// What moments are stored in.
+    pub storage: Storage,
     /// Blur, mips and sampling.
     pub filter: Filter,
 }
 
 impl Default for Vsm {
     fn default() -> Self {
-        Self { least_variance: 1e-6, reduction: 0.0, slope: 1.0, filter: Filter::default() }
+        Self {
+            least_variance: 1e-6,
+            reduction: 0.0,
+            slope: 1.0,
+            slope_of: SlopeOf::Receiver,
+            storage: Storage::Float32,
+            filter: Filter::default(),
+        }
     }
 }
 
-const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rg32Float;
+impl Vsm {
+    fn values(&self, device: Option<&Capabilities>) -> Values {
+        let renders = device.is_none_or(|d| d.renders(TextureFormat::Rg16Unorm));
+        let format = match self.storage {
+            Storage::Float16 => TextureFormat::Rg16Float,
+            Storage::Unorm16 if renders => TextureFormat::Rg16Unorm,
+            Storage::Float32 | Storage::Unorm16 => TextureFormat::Rg32Float,
+        };
+        Values { format, layers: 1, ranges: vec![[0.0, 1.0]; 2], bits: 24 }
+    }
+
+    /// Least variance, and share of the mean square beside it, that cover what storage rounds off a
+    /// square and off twice a mean. Encoding, both directions of the blur and mips err independently:
+    /// four errors add up to two.
+    #[must_use]
+    pub fn floor(&self) -> [f32; 2] {
+        match self.storage {
+            Storage::Float32 => [self.least_variance, 0.0],
+            // Halves may be truncated: 2⁻¹⁰ of the square, twice that of the mean.
+            Storage::Float16 => [self.least_variance, 2.0 * 3.0 * 2f32.powi(-10)],
+            Storage::Unorm16 => [self.least_variance.max(2.0 * 3.0 * 0.5 / 65535.0), 0.0],
+        }
+    }
+}
 
 impl Technique for Vsm {
     fn page(&self) -> Page {
@@ -63,31 +123,59 @@ impl Technique for Vsm {
                 "slope",
                 "",
                 Field::Number(&mut self.slope, 0.0..=4.0),
-                "times ¼(z_x² + z_y²), added to the square: the variance of a plane within a texel",
+                "times ¼(z_x² + z_y²), the variance of a plane within a texel: keeps slopes lit without bias",
             ),
+            Parameter::new("slope_of", "", Field::Choice(&mut self.slope_of), "whose slope"),
+            Parameter::new("storage", "", Field::Choice(&mut self.storage), "what moments are stored in"),
         ];
         own.into_iter().chain(self.filter.parameters()).collect()
     }
-    fn maps(&self, _: &Capabilities) -> Result<Vec<Map>, Unsupported> {
-        Ok(vec![Map { name: "moments", format: FORMAT, layers: 1, encode: "vsm_encode", passes: self.filter.passes() }])
+    fn maps(&self, device: &Capabilities) -> Result<Vec<Map>, Unsupported> {
+        let encode = match self.slope_of {
+            SlopeOf::Receiver => Encode::Texel("vsm_encode"),
+            SlopeOf::Caster => Encode::Neighbours("vsm_encode_sloped"),
+        };
+        Ok(vec![self.filter.map("moments", encode, self.values(Some(device)), Combine::Mean)])
+    }
+    fn fallbacks(&self, device: &Capabilities) -> Vec<String> {
+        let told = "moments in 32 bits instead of 16, twice the memory: Rg16Unorm cannot be rendered to without TEXTURE_FORMAT_16BIT_NORM and TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES";
+        let lacks = self.storage == Storage::Unorm16 && !device.renders(TextureFormat::Rg16Unorm);
+        if lacks { vec![told.into()] } else { Vec::new() }
     }
     fn bindings(&self) -> Vec<Binding> {
         vec![Binding::Map(0), Binding::Sampler]
     }
     fn wgsl(&self) -> &'static str {
-        include_str!("vsm.wgsl")
+        match self.slope_of {
+            SlopeOf::Receiver => concat!(include_str!("vsm.wgsl"), include_str!("vsm/receiver.wgsl")),
+            SlopeOf::Caster => concat!(include_str!("vsm.wgsl"), include_str!("vsm/caster.wgsl")),
+        }
     }
     fn uniforms(&self) -> Vec<Uniform> {
-        vec![("least_variance", self.least_variance), ("reduction", self.reduction), ("slope", self.slope)]
+        let [least_variance, rounding] = self.floor();
+        vec![
+            ("least_variance", least_variance),
+            ("rounding", rounding),
+            ("reduction", self.reduction),
+            ("slope", self.slope),
+        ]
     }
     fn constants(&self) -> Vec<Constant> {
-        self.filter.constants()
+        self.filter.constants(&self.values(None), Combine::Mean)
     }
     fn parts(&self, device: &Capabilities) -> Vec<&'static str> {
-        self.filter.parts(device, FORMAT)
+        self.filter.parts(device, &self.values(Some(device)), Combine::Mean)
     }
     fn reach_texels(&self) -> f32 {
         self.filter.reach_texels()
+    }
+    /// What the least variance lets through a tenth of the depth range behind a blocker.
+    fn ripple(&self) -> f32 {
+        let least = self.floor().into_iter().fold(0.0, f32::max);
+        (least / (least + 0.01) - self.reduction).max(0.0) / (1.0 - self.reduction)
+    }
+    fn lookups(&self) -> u32 {
+        self.filter.lookups(&self.values(None))
     }
     fn boxed(&self) -> Box<dyn Technique> {
         Box::new(*self)

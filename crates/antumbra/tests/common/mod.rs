@@ -350,18 +350,20 @@ pub fn texels(gpu: &Gpu, texture: &wgpu::Texture, layer: u32, mip: u32) -> Vec<[
             .collect()
     };
     let wide = || floats(&bytes).into_iter().map(f64::from).collect::<Vec<f64>>();
+    let halves = || words(&bytes).map(from_half).collect::<Vec<f64>>();
+    let shares = || words(&bytes).map(|w| f64::from(w) / 65535.0).collect::<Vec<f64>>();
+    use wgpu::TextureFormat as F;
     match texture.format() {
-        wgpu::TextureFormat::Rgba8Unorm => {
-            pack(&bytes.iter().map(|b| f64::from(*b) / 255.0).collect::<Vec<f64>>(), 4)
-        }
-        wgpu::TextureFormat::Rgba16Unorm => {
-            pack(&words(&bytes).map(|w| f64::from(w) / 65535.0).collect::<Vec<f64>>(), 4)
-        }
-        wgpu::TextureFormat::Rg16Float => pack(&words(&bytes).map(from_half).collect::<Vec<f64>>(), 2),
-        wgpu::TextureFormat::Rgba16Float => pack(&words(&bytes).map(from_half).collect::<Vec<f64>>(), 4),
-        wgpu::TextureFormat::R32Float => pack(&wide(), 1),
-        wgpu::TextureFormat::Rg32Float => pack(&wide(), 2),
-        wgpu::TextureFormat::Rgba32Float => pack(&wide(), 4),
+        F::Rgba8Unorm => pack(&bytes.iter().map(|b| f64::from(*b) / 255.0).collect::<Vec<f64>>(), 4),
+        F::R16Unorm => pack(&shares(), 1),
+        F::Rg16Unorm => pack(&shares(), 2),
+        F::Rgba16Unorm => pack(&shares(), 4),
+        F::R16Float => pack(&halves(), 1),
+        F::Rg16Float => pack(&halves(), 2),
+        F::Rgba16Float => pack(&halves(), 4),
+        F::R32Float => pack(&wide(), 1),
+        F::Rg32Float => pack(&wide(), 2),
+        F::Rgba32Float => pack(&wide(), 4),
         format => panic!("teach this test to read {format:?}"),
     }
 }

@@ -1,4 +1,5 @@
 use super::*;
+use crate::pass;
 use crate::{
     capabilities::Capabilities,
     light::Size,
@@ -134,8 +135,10 @@ fn what_is_written_lies_where_the_shader_reads_it() {
 #[test]
 fn the_convert_settings_are_floats_in_order() {
     for technique in all() {
-        for map in technique.maps(&device()).unwrap() {
-            let module = parse_str(&shader::convert(technique.as_ref(), &device(), &map, 0, 1)).unwrap();
+        let maps = technique.maps(&device()).unwrap();
+        let steps = pass::plan(technique.as_ref(), &device(), &maps, Size::square(64));
+        for step in steps.iter().filter(|s| s.source.slot == pass::Slot::Casters) {
+            let module = parse_str(&step.shader).unwrap();
             let (members, _) = layout(&module, "Convert");
             let names = std::iter::once("near_over_far").chain(technique.uniforms().into_iter().map(|u| u.0));
             let expected: Vec<_> = names.zip(0..).map(|(name, i)| (name.to_string(), 4 * i, 4)).collect();

@@ -1,11 +1,14 @@
 //! needs level
 
+/// What receivers read.
+alias LookupMap = texture_2d_array<f32>;
+
 /// Most lookups along the footprint.
 const lookup_most_taps: u32 = 16;
 
 /// Trilinear lookups in a row along the longer side of the pixel's footprint, at the level of its
 /// shorter side. An explicit loop: bounded, and the same on every driver.
-fn lookup_filtered(map: texture_2d_array<f32>, map_sampler: sampler, uv: vec2f, layer: u32, ddx: vec2f, ddy: vec2f) -> vec4f {
+fn lookup_filtered(map: LookupMap, map_sampler: sampler, uv: vec2f, layer: u32, ddx: vec2f, ddy: vec2f) -> vec4f {
     let size = vec2f(textureDimensions(map));
     let x = length(ddx * size);
     let y = length(ddy * size);

@@ -1,6 +1,9 @@
 //! needs level
 
+/// What receivers read.
+alias LookupMap = texture_2d_array<f32>;
+
 /// Four texels of the finest level.
-fn lookup_filtered(map: texture_2d_array<f32>, map_sampler: sampler, uv: vec2f, layer: u32, ddx: vec2f, ddy: vec2f) -> vec4f {
+fn lookup_filtered(map: LookupMap, map_sampler: sampler, uv: vec2f, layer: u32, ddx: vec2f, ddy: vec2f) -> vec4f {
     return level_filtered(map, map_sampler, uv, layer, 0.0);
 }

@@ -1,9 +1,12 @@
 //! needs level
 
+/// What receivers read.
+alias LookupMap = texture_2d_array<f32>;
+
 /// Two mip levels, chosen so that a texel covers the longer side of the pixel's footprint. The
 /// level is computed here and not by the sampler: the same on every driver, legal in any control
 /// flow.
-fn lookup_filtered(map: texture_2d_array<f32>, map_sampler: sampler, uv: vec2f, layer: u32, ddx: vec2f, ddy: vec2f) -> vec4f {
+fn lookup_filtered(map: LookupMap, map_sampler: sampler, uv: vec2f, layer: u32, ddx: vec2f, ddy: vec2f) -> vec4f {
     let size = vec2f(textureDimensions(map));
     let x = ddx * size;
     let y = ddy * size;

@@ -1,10 +1,11 @@
-//! One axis of a plot.
+//! One axis of a plot: where values lie, and the round ones that are written beside it.
 
 /// Spread from which a logarithmic axis shows more than a linear one.
 const LOG_FROM: f64 = 4.0;
 
-/// Maps values to positions, linearly from 0 or logarithmically.
-pub(super) struct Axis {
+/// Maps values to positions, linearly or logarithmically.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Axis {
     low: f64,
     high: f64,
     log: bool,
@@ -12,9 +13,14 @@ pub(super) struct Axis {
 }
 
 impl Axis {
+    /// A linear axis from `low` to `high`, in that order, between the positions `ends`.
+    pub(crate) fn linear([low, high]: [f64; 2], ends: [f64; 2]) -> Self {
+        Self { low, high, log: false, ends }
+    }
+
     /// An axis that shows all `values` between the positions `ends`; logarithmic if they are
-    /// positive and far apart.
-    pub(super) fn new(values: Vec<f64>, ends: [f64; 2]) -> Self {
+    /// positive and far apart, else from 0.
+    pub(crate) fn new(values: Vec<f64>, ends: [f64; 2]) -> Self {
         let low = values.iter().copied().fold(f64::INFINITY, f64::min);
         let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         if values.is_empty() || high <= 0.0 {
@@ -25,12 +31,12 @@ impl Axis {
         Self { low, high, log, ends }
     }
 
-    pub(super) fn is_log(&self) -> bool {
+    pub(crate) fn is_log(&self) -> bool {
         self.log
     }
 
     /// Position of a value.
-    pub(super) fn place(&self, value: f64) -> f64 {
+    pub(crate) fn place(&self, value: f64) -> f64 {
         let t = if self.log {
             (value / self.low).ln() / (self.high / self.low).ln()
         } else {
@@ -40,7 +46,7 @@ impl Axis {
     }
 
     /// Positions and texts at round values.
-    pub(super) fn ticks(&self) -> Vec<(f64, String)> {
+    pub(crate) fn ticks(&self) -> Vec<(f64, String)> {
         let values = if self.log { self.log_ticks() } else { self.linear_ticks() };
         values.into_iter().map(|v| (self.place(v), text(v))).collect()
     }
@@ -58,15 +64,18 @@ impl Axis {
         let power = 10_f64.powf(rough.log10().floor());
         let step =
             [1.0, 2.0, 5.0, 10.0].into_iter().map(|s| s * power).find(|s| *s >= rough).unwrap_or(rough);
-        let count = ((self.high - self.low) / step).floor() as u32;
-        (0..=count).map(|i| self.low + f64::from(i) * step).collect()
+        // Ends that are round but for rounding count.
+        let [first, last] =
+            [(self.low / step - 1e-6).ceil(), (self.high / step + 1e-6).floor()].map(|n| n as i64);
+        (first..=last).map(|i| i as f64 * step).collect()
     }
 }
 
 /// As short as a round value can be written.
 fn text(value: f64) -> String {
     let text = format!("{value:.6}");
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" { "0".into() } else { text.into() }
 }
 
 #[cfg(test)]
@@ -89,6 +98,14 @@ mod tests {
         let texts: Vec<String> = axis.ticks().into_iter().map(|(_, text)| text).collect();
         assert_eq!(texts, ["0.01", "0.02", "0.05", "0.1", "0.2"]);
         assert!((axis.place((0.01_f64 * 0.2).sqrt()) - 50.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_linear_axis_has_ticks_at_round_values_on_both_sides_of_zero() {
+        let axis = Axis::linear([-0.1, 0.25], [10.0, 80.0]);
+        let texts: Vec<String> = axis.ticks().into_iter().map(|(_, text)| text).collect();
+        assert_eq!(texts, ["-0.1", "0", "0.1", "0.2"]);
+        assert!((axis.place(0.0) - 30.0).abs() < 1e-9);
     }
 
     #[test]

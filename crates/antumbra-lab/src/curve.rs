@@ -1,0 +1,143 @@
+//! The shadow test as a technique approximates it: visibility against how far a receiver lies behind
+//! its caster [Annen et al. 2007, figure 3; Annen et al. 2008, figure 2].
+
+use crate::gpu::Gpu;
+use antumbra::{
+    DEPTH_FORMAT, NoProbe, Options, ShadowMap, Size, Technique, View,
+    technique::{self, Bias},
+};
+use anyhow::{Context, Result};
+use glam::{Mat4, Vec4};
+
+/// Room for the widest kernel on both sides of the middle.
+const SIZE: Size = Size::square(64);
+
+/// What `shadow_visibility` answers in the middle of a map whose every texel holds the linear depth
+/// `caster`, for receivers at the linear depths `receivers` that face the light, without bias. All
+/// depths are shares of the light's range, 0 to 1; so are the answers, 0 in shadow, 1 lit.
+///
+/// # Errors
+/// Settings that the device cannot do, naming the technique; a lost device.
+pub fn visibility(gpu: &Gpu, technique: &dyn Technique, caster: f32, receivers: &[f32]) -> Result<Vec<f32>> {
+    let depth = flat(gpu, caster);
+    let options = Options::from(SIZE).bias(Bias::NONE);
+    let mut shadows = ShadowMap::from_depth(&gpu.device, technique, &depth, options)
+        .with_context(|| technique::spec(technique))?;
+    shadows.prepare(&gpu.queue, &[view()])?;
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    shadows.encode_filter(&mut encoder, &mut NoProbe);
+    let answers = ask(gpu, &shadows, receivers, &mut encoder);
+    gpu.finish(encoder).with_context(|| technique::spec(technique))?;
+    let bytes = gpu.map(&answers)?;
+    Ok(bytemuck::pod_collect_to_vec(&bytes[..4 * receivers.len()]))
+}
+
+/// A view whose light space is world space: x and y in [−1,1] (y up), depth z in [0,1].
+fn view() -> View {
+    View {
+        clip_from_world: Mat4::IDENTITY,
+        depth_plane: Vec4::Z,
+        to_light: Vec4::NEG_Z,
+        texel_world: 2.0 / SIZE.width as f32,
+        near_over_far: 1.0,
+        depth_world: 1.0,
+    }
+}
+
+/// Depth that a caster parallel to the map would leave.
+fn flat(gpu: &Gpu, depth: f32) -> wgpu::Texture {
+    use wgpu::TextureUsages as Usage;
+    let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("flat caster"),
+        size: wgpu::Extent3d { width: SIZE.width, height: SIZE.height, depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: DEPTH_FORMAT,
+        usage: Usage::RENDER_ATTACHMENT | Usage::TEXTURE_BINDING,
+        view_formats: &[],
+    });
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    drop(encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        label: Some("flat caster"),
+        depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+            view: &texture.create_view(&Default::default()),
+            depth_ops: Some(wgpu::Operations {
+                load: wgpu::LoadOp::Clear(depth),
+                store: wgpu::StoreOp::Store,
+            }),
+            stencil_ops: None,
+        }),
+        ..Default::default()
+    }));
+    gpu.queue.submit([encoder.finish()]);
+    texture
+}
+
+/// Encodes one question per receiver; the answers lie in the buffer once the encoder has run.
+fn ask(
+    gpu: &Gpu,
+    shadows: &ShadowMap,
+    receivers: &[f32],
+    encoder: &mut wgpu::CommandEncoder,
+) -> wgpu::Buffer {
+    use wgpu::BufferUsages as Usage;
+    let device = &gpu.device;
+    let source = gpu.buffer("receivers", bytemuck::cast_slice(receivers), Usage::STORAGE);
+    let buffer = |label, usage| {
+        let size = source.size();
+        device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some(label),
+            size,
+            usage,
+            mapped_at_creation: false,
+        })
+    };
+    let target = buffer("answers", Usage::STORAGE | Usage::COPY_SRC);
+    let answers = buffer("answers", Usage::MAP_READ | Usage::COPY_DST);
+    let entry = |binding, read_only| wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::COMPUTE,
+        ty: wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Storage { read_only },
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        },
+        count: None,
+    };
+    let own = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("curve"),
+        entries: &[entry(0, true), entry(1, false)],
+    });
+    let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some("curve"),
+        bind_group_layouts: &[Some(shadows.layout()), Some(&own)],
+        immediate_size: 0,
+    });
+    let module = gpu.shader("curve", shadows.wgsl(0).after(include_str!("curve.wgsl")));
+    let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+        label: Some("curve"),
+        layout: Some(&layout),
+        module: &module,
+        entry_point: Some("main"),
+        compilation_options: Default::default(),
+        cache: None,
+    });
+    let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some("curve"),
+        layout: &own,
+        entries: &[
+            wgpu::BindGroupEntry { binding: 0, resource: source.as_entire_binding() },
+            wgpu::BindGroupEntry { binding: 1, resource: target.as_entire_binding() },
+        ],
+    });
+    {
+        let mut pass = encoder.begin_compute_pass(&Default::default());
+        pass.set_pipeline(&pipeline);
+        pass.set_bind_group(0, shadows.bind_group(), &[]);
+        pass.set_bind_group(1, &group, &[]);
+        pass.dispatch_workgroups(receivers.len().div_ceil(64) as u32, 1, 1);
+    }
+    encoder.copy_buffer_to_buffer(&target, 0, &answers, 0, target.size());
+    answers
+}

@@ -1,0 +1,86 @@
+//! From the casters' depth to what a technique keeps, alone or fused with the rows of a blur.
+
+use super::{Place, Run, Slot, Step, combine, targets};
+use crate::{
+    capabilities::Capabilities,
+    kernel::Kernel,
+    shader::ShaderText,
+    technique::{Combine, Encode, Map, Technique},
+};
+
+/// WGSL that gives encoded texels: `convert_source(p)` and `convert_layer(source, layer)`.
+#[derive(Debug)]
+pub(super) struct Source {
+    wgsl: String,
+    encode: Encode,
+}
+
+impl Source {
+    pub(super) fn new(technique: &dyn Technique, device: &Capabilities, map: &Map) -> Self {
+        let uniforms = technique.uniforms();
+        let members: String = uniforms.iter().map(|(name, _)| format!(", {name}: f32")).collect();
+        let settings: String = uniforms.iter().map(|(name, _)| format!(", convert.{name}")).collect();
+        let (kind, function, depth) = match map.encode {
+            Encode::Texel(function) => ("f32", function, include_str!("convert/texel.wgsl")),
+            Encode::Neighbours(function) => ("mat3x3f", function, include_str!("convert/neighbours.wgsl")),
+        };
+        let glue = include_str!("convert/depth.wgsl.in")
+            .replace("{members}", &members)
+            .replace("{kind}", kind)
+            .replace("{call}", &format!("{function}(source, layer{settings})"));
+        Self { wgsl: ShaderText::library(technique, device).text() + &glue + depth, encode: map.encode }
+    }
+
+    /// Whether texels may be encoded once per tap.
+    pub(super) fn is_cheap(&self) -> bool {
+        matches!(self.encode, Encode::Texel(_))
+    }
+
+    /// The WGSL, for other ways to run it.
+    pub(super) fn wgsl(&self) -> &str {
+        &self.wgsl
+    }
+
+    /// Encodes layers of a map.
+    pub(super) fn plain(&self, run: Run) -> Step {
+        let stores: String = layers(run)
+            .map(|(i, layer)| format!("    targets.layer_{i} = convert_layer(source, {layer}u);\n"))
+            .collect();
+        let body = format!("    let source = convert_source(position.xy);\n{stores}");
+        run.step("convert", self.fragment(run, &body), CASTERS, run.kept(0))
+    }
+
+    /// Encodes layers of a map and blurs them along x, into scratch.
+    pub(super) fn rows(&self, kernel: &Kernel, how: Combine, run: Run) -> Step {
+        let mut body: String =
+            layers(run).map(|(i, _)| format!("    var sum_{i} = combine_none();\n")).collect();
+        for (offset, weight) in kernel.offsets() {
+            body += &format!("    source = convert_source(position.xy + vec2f({offset:?}, 0.0));\n");
+            for (i, layer) in layers(run) {
+                body += &format!(
+                    "    sum_{i} = combine_add(sum_{i}, {weight:?}, convert_layer(source, {layer}u));\n"
+                );
+            }
+        }
+        body = body.replacen("    source =", "    var source =", 1);
+        for (i, _) in layers(run) {
+            body += &format!("    targets.layer_{i} = combine_result(sum_{i});\n");
+        }
+        let shader = combine(how) + &self.fragment(run, &body);
+        run.step("convert", shader, CASTERS, run.scratch())
+    }
+
+    fn fragment(&self, run: Run, body: &str) -> String {
+        let end = include_str!("convert/fragment.wgsl.in")
+            .replace("{targets}", &targets(run.count))
+            .replace("{body}", body);
+        self.wgsl.clone() + &end
+    }
+}
+
+const CASTERS: Place = Place { slot: Slot::Casters, layer: 0, mip: 0 };
+
+/// Number within the run, and layer of the map.
+fn layers(run: Run) -> impl Iterator<Item = (u32, u32)> {
+    (0..run.count).map(move |i| (i, run.first + i))
+}

@@ -1,0 +1,160 @@
+//! The WGSL against the same formulas in f64, on thousands of random inputs.
+//!
+//! Every comparison is repeated with a reference that is slightly wrong, and must then fail.
+
+#![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
+
+mod basis;
+#[path = "../common/mod.rs"]
+mod common;
+mod comparison;
+mod lookups;
+mod receiver;
+
+use antumbra::{Capabilities, Size, Technique, technique, technique::Encode};
+use antumbra_testing::{Gpu, Trials};
+use common::{Random, compute, depth_texture, shadow_map};
+
+const SIZE: Size = Size::square(64);
+const ROWS: usize = 4096;
+/// Floats of input per invocation.
+const INPUTS: usize = 16;
+type Row = [f32; INPUTS];
+
+/// Encode functions that a trial below compares.
+const ENCODE_FUNCTIONS: [&str; 8] = [
+    "vsm_encode",
+    "vsm_encode_sloped",
+    "csm_encode",
+    "esm_encode",
+    "esm_depth",
+    "evsm_encode",
+    "msm_encode",
+    "lvsm_encode",
+];
+
+fn rows(seed: u64, make: impl Fn(&mut Random) -> Row) -> Vec<Row> {
+    let mut random = Random::new(seed);
+    (0..ROWS).map(|_| make(&mut random)).collect()
+}
+
+/// A row that begins with these values.
+fn row<const N: usize>(values: [f32; N]) -> Row {
+    std::array::from_fn(|i| values.get(i).copied().unwrap_or(0.0))
+}
+
+fn shadows(gpu: &Gpu, technique: &dyn Technique, seed: u64) -> antumbra::ShadowMap {
+    shadow_map(gpu, technique, &depth_texture(gpu, SIZE, noise(seed)), SIZE.into())
+}
+
+fn noise(seed: u64) -> impl Fn(u32, u32) -> f32 {
+    let mut random = Random::new(seed);
+    let depths: Vec<f32> = (0..SIZE.width * SIZE.height).map(|_| random.unit()).collect();
+    move |x, y| depths[(y * SIZE.width + x) as usize]
+}
+
+/// Runs `body`, which reads `take(i)` and writes `put(i, value)` for i < N, on every row.
+fn run<const N: usize>(gpu: &Gpu, shadows: &antumbra::ShadowMap, body: &str, rows: &[Row]) -> Vec<[f32; N]> {
+    let user = format!(
+        "
+        @group(1) @binding(0) var<storage, read> rows: array<f32>;
+        @group(1) @binding(1) var<storage, read_write> results: array<f32>;
+        var<private> me: u32;
+        fn take(i: u32) -> f32 {{ return rows[me * {INPUTS}u + i]; }}
+        fn take2(i: u32) -> vec2f {{ return vec2f(take(i), take(i + 1u)); }}
+        fn take3(i: u32) -> vec3f {{ return vec3f(take(i), take(i + 1u), take(i + 2u)); }}
+        fn put(i: u32, value: f32) {{ results[me * {N}u + i] = value; }}
+        fn put2(i: u32, value: vec2f) {{ put(i, value.x); put(i + 1u, value.y); }}
+        fn put3(i: u32, value: vec3f) {{ put2(i, value.xy); put(i + 2u, value.z); }}
+        fn put4(i: u32, value: vec4f) {{ put2(i, value.xy); put2(i + 2u, value.zw); }}
+        @compute @workgroup_size(64) fn main(@builtin(global_invocation_id) id: vec3u) {{
+            if id.x * {INPUTS}u >= arrayLength(&rows) {{ return; }}
+            me = id.x;
+            {body}
+        }}"
+    );
+    let input = bytemuck::cast_slice(rows.as_flattened());
+    let flat = compute(gpu, shadows, &user, input, rows.len() * N, rows.len());
+    flat.chunks_exact(N).map(|c| std::array::from_fn(|i| c[i])).collect()
+}
+
+/// `expected` gives values and the tolerance of each.
+fn compare<const N: usize, const M: usize>(
+    rows: &[Row],
+    found: &[[f32; N]],
+    expected: impl Fn(&[f64; INPUTS]) -> ([f64; M], f64),
+) -> Result<(), String> {
+    compare_from::<N, M>(0, rows, found, expected)
+}
+
+/// The same for the results from number `first` on.
+fn compare_from<const N: usize, const M: usize>(
+    first: usize,
+    rows: &[Row],
+    found: &[[f32; N]],
+    expected: impl Fn(&[f64; INPUTS]) -> ([f64; M], f64),
+) -> Result<(), String> {
+    for (row, found) in rows.iter().zip(found) {
+        let (values, tolerance) = expected(&row.map(f64::from));
+        for (i, (f, e)) in found[first..].iter().zip(values).enumerate() {
+            let difference = (f64::from(*f) - e).abs();
+            if difference.is_nan() || difference > tolerance {
+                return Err(format!("result {i}: {f} instead of {e} ± {tolerance:e} for {row:?}"));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Weights of GPUs' samplers have 8 bits; software drivers' are floats.
+fn sampler_error(gpu: &Gpu) -> f64 {
+    if gpu.info.device_type == wgpu::DeviceType::Cpu { 1e-5 } else { 4e-3 }
+}
+
+/// Texel (x, y) of an image, edges repeated.
+fn clamped(x: f64, y: f64, side: usize) -> usize {
+    let index = |v: f64| v.clamp(0.0, side as f64 - 1.0) as usize;
+    index(y) * side + index(x)
+}
+
+/// Bilinear interpolation of `image(index)` over a square of `side` texels.
+fn bilinear(u: f64, v: f64, side: usize, image: impl Fn(usize) -> f64) -> f64 {
+    let (x, y) = (u * side as f64 - 0.5, v * side as f64 - 0.5);
+    let (fx, fy) = (x - x.floor(), y - y.floor());
+    let at = |dx: f64, dy: f64| image(clamped(x.floor() + dx, y.floor() + dy, side));
+    let top = at(0.0, 0.0) * (1.0 - fx) + at(1.0, 0.0) * fx;
+    let bottom = at(0.0, 1.0) * (1.0 - fx) + at(1.0, 1.0) * fx;
+    top * (1.0 - fy) + bottom * fy
+}
+
+fn main() {
+    let mut trials = Trials::default();
+    trials.add_plain("every encode function is compared", || {
+        let device = Capabilities { features: wgpu::Features::empty(), limits: wgpu::Limits::default() };
+        for technique in technique::all() {
+            for map in technique.maps(&device).unwrap() {
+                let (Encode::Texel(name) | Encode::Neighbours(name)) = map.encode;
+                assert!(ENCODE_FUNCTIONS.contains(&name), "compare {name} here");
+            }
+        }
+    });
+    trials.add("esm encodes and bounds", basis::esm_encodes_and_bounds);
+    trials.add("esm of logarithms", basis::esm_of_logarithms);
+    trials.add("vsm encodes", basis::vsm_encodes);
+    trials.add("vsm and chebyshev bound", basis::vsm_and_chebyshev_bound);
+    trials.add("evsm encodes and bounds", basis::evsm_encodes_and_bounds);
+    trials.add("msm encodes and bounds", basis::msm_encodes_and_bounds);
+    trials.add("lvsm encodes and bounds", basis::lvsm_encodes_and_bounds);
+    trials.add("csm sums its series", basis::csm_sums_its_series);
+    trials.add("raster depth is linearised", receiver::raster_depth_is_linearised);
+    trials.add("raster depth is cleaned", receiver::raster_depth_is_cleaned);
+    trials.add("receivers are projected", receiver::receivers_are_projected);
+    trials.add("receiver planes are solved", receiver::receiver_planes_are_solved);
+    trials.add("pcf is a weighted sum", comparison::pcf_is_a_weighted_sum);
+    trials.add("lookups interpolate", lookups::lookups_interpolate);
+    trials.add("logarithms are interpolated as powers", lookups::logarithms_interpolate_as_powers);
+    trials.add("words add up", lookups::words_add_up);
+    trials.add("sums are means over boxes", lookups::sums_are_means_over_boxes);
+    trials.add("sums at 2048² are exact", lookups::sums_are_exact_at_2048);
+    trials.run();
+}

@@ -1,0 +1,158 @@
+//! Depth, projection and gradients of receivers.
+
+use super::{INPUTS, Row, SIZE, compare, compare_from, row, rows, run, shadows};
+use antumbra::{Light, technique};
+use antumbra_testing::Gpu;
+use glam::{DMat4, DVec3, Vec3};
+
+/// A depth z is rounded by 6e-8, which the curve of a perspective depth magnifies by 1/(1 − (1 − r)z).
+pub(crate) fn raster_depth_is_linearised(gpu: &Gpu) {
+    let shadows = shadows(gpu, &technique::Hard, 1);
+    // r = near/far; z projected depth; l linear depth.
+    let rows = rows(6, |r| row([r.unit(), 10f32.powf(r.range(-3.0, 0.0)), r.unit()]));
+    let body = "
+        put(0u, raster_linear(take(0u), take(1u)));
+        put(1u, raster_slope(take(2u), take(1u)));";
+    let found = run::<2>(gpu, &shadows, body, &rows);
+    // From distances: with far = 1, z = (1 − r/w)/(1 − r), linear depth (w − r)/(1 − r).
+    let linear = |factor: f64| {
+        move |row: &[f64; INPUTS]| {
+            let (z, r) = (row[0], row[1] * factor);
+            let w = r / (1.0 - z * (1.0 - r));
+            let l = (w - r) / (1.0 - r).max(1e-12);
+            ([l], 1e-6 + 3e-7 * l / (1.0 - (1.0 - r) * z))
+        }
+    };
+    compare(&rows, &found, linear(1.0)).unwrap();
+    compare(&rows, &found, linear(1.001)).unwrap_err();
+    let projected = |l: f64, r: f64| l / (r + l * (1.0 - r));
+    let slope = |factor: f64| {
+        move |row: &[f64; INPUTS]| {
+            let (h, l, r) = (1e-7, row[2], row[1] * factor);
+            let s = (projected(l + h, r) - projected(l - h, r)) / (2.0 * h);
+            ([s], 1e-5 * s)
+        }
+    };
+    compare_from(1, &rows, &found, slope(1.0)).unwrap();
+    compare_from(1, &rows, &found, slope(1.001)).unwrap_err();
+}
+
+/// Not a number, infinities and depths out of range become the far plane; the rest stays, exactly.
+pub(crate) fn raster_depth_is_cleaned(gpu: &Gpu) {
+    let shadows = shadows(gpu, &technique::Hard, 1);
+    let odd = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -1e-6, -3.0, 1.000_001, 7.0];
+    let good = [0.0, 1.0, 0.5, 1e-30, 0.999_999];
+    let rows: Vec<Row> = odd.iter().chain(&good).map(|z| row([*z])).collect();
+    let found = run::<1>(gpu, &shadows, "put(0u, raster_clean(take(0u)));", &rows);
+    let expected: Vec<[f32; 1]> = odd.iter().map(|_| [1.0]).chain(good.map(|z| [z])).collect();
+    assert_eq!(found, expected);
+}
+
+/// Positions up to 4, distances of 8 to 16: a few roundings, none magnified.
+pub(crate) fn receivers_are_projected(gpu: &Gpu) {
+    let shadows = shadows(gpu, &technique::Hard, 1);
+    let bounds = antumbra::Bounds { min: Vec3::splat(-4.0), max: Vec3::splat(4.0) };
+    let spot = Light::Spot {
+        position: Vec3::new(1.0, 12.0, 2.0),
+        direction: Vec3::new(0.1, -1.0, 0.2),
+        outer_angle: 0.6,
+    };
+    let fit = antumbra::Fit {
+        casters: bounds,
+        receivers: bounds.corners().collect(),
+        size: SIZE,
+        margin_texels: 2.0,
+    };
+    let matrix = spot.view(&fit).unwrap().clip_from_world;
+    let m: Vec<String> = matrix.to_cols_array().iter().map(|v| format!("{v:?}")).collect();
+    let rows = rows(7, |r| {
+        let n = Vec3::new(r.range(-1.0, 1.0), r.range(-1.0, 1.0), r.range(-1.0, 1.0)).normalize();
+        let p = Vec3::new(r.range(-4.0, 4.0), r.range(-4.0, 4.0), r.range(-4.0, 4.0));
+        row([p.x, p.y, p.z, n.x, n.y, n.z])
+    });
+    let body = format!(
+        "
+        let matrix = mat4x4f({});
+        let ndc = receiver_project(matrix, take3(0u));
+        put4(0u, ndc);
+        put3(4u, receiver_gradient(matrix, ndc, take3(3u)));
+        put2(7u, receiver_uv(ndc.xy));
+        put3(9u, receiver_tangent(take3(3u)));",
+        m.join(", ")
+    );
+    let found = run::<12>(gpu, &shadows, &body, &rows);
+    let matrix = matrix.as_dmat4();
+    let project = |matrix: DMat4, p: DVec3| {
+        let c = matrix * p.extend(1.0);
+        (c.truncate() / c.w).extend(c.w)
+    };
+    let point = |r: &[f64; INPUTS]| (DVec3::new(r[0], r[1], r[2]), DVec3::new(r[3], r[4], r[5]));
+    let ndc = |factor: f64| {
+        move |r: &[f64; INPUTS]| {
+            (project(matrix * DMat4::from_scale(DVec3::splat(factor)), point(r).0).to_array(), 5e-6)
+        }
+    };
+    compare(&rows, &found, ndc(1.0)).unwrap();
+    compare(&rows, &found, ndc(1.001)).unwrap_err();
+    let gradient = |factor: f64| {
+        move |r: &[f64; INPUTS]| {
+            let ((p, n), h) = (point(r), 1e-5);
+            let change = (project(matrix, p + n * h) - project(matrix, p - n * h)) / (2.0 * h);
+            ((change.truncate() * factor).to_array(), 2e-6)
+        }
+    };
+    compare_from(4, &rows, &found, gradient(1.0)).unwrap();
+    compare_from(4, &rows, &found, gradient(1.001)).unwrap_err();
+    let uv = |r: &[f64; INPUTS]| {
+        let ndc = project(matrix, point(r).0);
+        ([0.5 + 0.5 * ndc.x, 0.5 - 0.5 * ndc.y], 5e-6)
+    };
+    compare_from(7, &rows, &found, uv).unwrap();
+    for (r, f) in rows.iter().zip(&found) {
+        let (n, t) = (Vec3::new(r[3], r[4], r[5]), Vec3::new(f[9], f[10], f[11]));
+        assert!((t.length() - 1.0).abs() < 1e-5 && n.dot(t).abs() < 1e-5, "tangent {t} of {n}");
+    }
+}
+
+/// The gradient g of depth solves g·duv = ddepth along both tangents; a plane seen edge-on has none,
+/// but its components stay finite and within the bound.
+pub(crate) fn receiver_planes_are_solved(gpu: &Gpu) {
+    const STEEPEST: f32 = 20.0;
+    let shadows = shadows(gpu, &technique::Hard, 1);
+    let mut rows = rows(8, |r| {
+        let mut values = row([0.0; 1]);
+        values[..6].fill_with(|| r.range(-1.0, 1.0));
+        values
+    });
+    // Edge-on: both tangents along one line, one of no length, both.
+    let edge_on = rows.len();
+    rows.push(row([0.3, 0.2, 0.6, 0.4, 0.5, 0.1]));
+    rows.push(row([0.3, 0.2, 0.0, 0.0, 0.5, 0.1]));
+    rows.push(row([0.0, 0.0, 0.0, 0.0, 0.5, -0.1]));
+    rows.push(row([0.0; 1]));
+    rows.push(row([1e-20, 0.0, 0.0, 1e-20, 1.0, 1.0]));
+    let body = format!(
+        "put2(0u, receiver_plane(take2(0u), take2(2u), take2(4u), vec2f({STEEPEST:?}, {STEEPEST:?})));"
+    );
+    let found = run::<2>(gpu, &shadows, &body, &rows);
+    assert!(found.as_flattened().iter().all(|g| g.abs() <= STEEPEST), "a plane without bound");
+    let solve = |factor: f64| {
+        move |r: &[f64; INPUTS]| {
+            let area = r[0] * r[3] - r[1] * r[2];
+            let g = [(r[4] * r[3] - r[5] * r[1]) / area, (r[5] * r[0] - r[4] * r[2]) / area];
+            let s = f64::from(STEEPEST);
+            // Rounding of the products, divided by the area.
+            (g.map(|g| (factor * g).clamp(-s, s)), 1e-6 + 2e-6 * (1.0 + s) / area.abs())
+        }
+    };
+    compare(&rows[..edge_on], &found[..edge_on], solve(1.0)).unwrap();
+    compare(&rows[..edge_on], &found[..edge_on], solve(1.01)).unwrap_err();
+    let residual = |r: &Row, g: &[f32; 2]| {
+        let along = |i: usize| g[0] * r[2 * i] + g[1] * r[2 * i + 1] - r[4 + i];
+        along(0).abs().max(along(1).abs())
+    };
+    let within = |g: &[f32; 2]| g.iter().all(|g| g.abs() < STEEPEST);
+    for (r, g) in rows[..edge_on].iter().zip(&found).filter(|(_, g)| within(g)) {
+        assert!(residual(r, g) < 1e-3, "{g:?} for {r:?}");
+    }
+}
