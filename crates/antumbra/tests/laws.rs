@@ -41,6 +41,8 @@ fn specs() -> Vec<String> {
         more("classifier", "storage=log32,classifier=zmax");
         more("slope_of", "slope_of=caster");
         more("sampling", "sampling=nearest,kernel=1");
+        more("packing", "packing=map,layers=1");
+        more("packing", "packing=texel,samples=2");
         more("moments", "moments=two");
         more("intervals", "intervals=7,overlap=0");
         for p in &technique.parameters() {
@@ -391,6 +393,24 @@ fn broken() -> Vec<(&'static str, Law, Broken)> {
                 "lvsm",
                 "bound = min(bound, lvsm_one(depth, moments.xy",
                 "bound = min(1.0, lvsm_one(depth, moments.xy",
+            ),
+        ),
+        (
+            "triangles that cover nothing",
+            is_dark_behind_a_blocker,
+            Broken::saying(
+                "spsm",
+                "max(dot(lines[1], p), dot(lines[2], p))) <= 0.0",
+                "max(dot(lines[1], p), dot(lines[2], p))) <= -9.0",
+            ),
+        ),
+        (
+            "the other side of a triangle",
+            is_lit_without_casters,
+            Broken::saying(
+                "spsm",
+                "if !packing_holds(words) {\n        return spsm_lit;",
+                "if !packing_holds(words) {\n        return spsm_shadowed;",
             ),
         ),
         ("a blur that brightens", filtering_keeps_the_mean, Broken { weights: 1.01, ..Broken::new("vsm") }),

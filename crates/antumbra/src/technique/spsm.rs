@@ -158,6 +158,66 @@ impl Technique for Spsm {
 
 /// The paper's steps in f64.
 pub mod reference {
+    /// Q of Eq. 3 with n = 5, before rounding: 0 to 254.
+    #[must_use]
+    pub fn quantize(slope: f64) -> f64 {
+        127.0 * (1.0 + (std::f64::consts::FRAC_2_PI * slope.atan()).powi(5))
+    }
+
+    /// The slope of a level, Eq. 4 with the signed root.
+    #[must_use]
+    pub fn dequantize(level: f64) -> f64 {
+        let power = level / 127.0 - 1.0;
+        (std::f64::consts::FRAC_PI_2 * power.signum() * power.abs().powf(0.2)).tan()
+    }
+
+    /// Twice the area of (a, b, c).
+    fn area(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
+        (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+    }
+
+    /// Weights of a triangle's corners at a point.
+    fn weights(corners: [[f64; 3]; 3], point: [f64; 2]) -> [f64; 3] {
+        let at = corners.map(|c| [c[0], c[1]]);
+        [0, 1, 2].map(|k| area(point, at[(k + 1) % 3], at[(k + 2) % 3]) / area(at[0], at[1], at[2]))
+    }
+
+    /// Algorithm 1: whether a triangle with corners (x, y, depth) is between the light and a receiver.
+    #[must_use]
+    pub fn intersects(corners: [[f64; 3]; 3], point: [f64; 2], depth: f64) -> bool {
+        let weights = weights(corners, point);
+        let plane: f64 = (0..3).map(|k| weights[k] * corners[k][2]).sum();
+        plane < depth && weights.iter().all(|w| *w >= 0.0)
+    }
+
+    /// Part of a convex polygon on the side of a line where n·x + o ≤ 0.
+    #[must_use]
+    pub fn clip(polygon: &[[f64; 2]], [nx, ny, o]: [f64; 3]) -> Vec<[f64; 2]> {
+        let side = |p: [f64; 2]| nx * p[0] + ny * p[1] + o;
+        let mut kept = Vec::new();
+        for (i, a) in polygon.iter().enumerate() {
+            let b = polygon[(i + 1) % polygon.len()];
+            let (here, there) = (side(*a), side(b));
+            if here <= 0.0 {
+                kept.push(*a);
+            }
+            if (here <= 0.0) != (there <= 0.0) {
+                let s = here / (here - there);
+                kept.push([a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1])]);
+            }
+        }
+        kept
+    }
+
+    /// Consistent minimum depth [§4.2, figure 9]: least of gain·(x, 1) over the part of a triangle that
+    /// is in the square of one texel around the origin; infinite if there is none.
+    #[must_use]
+    pub fn least(corners: [[f64; 2]; 3], gain: [f64; 3]) -> f64 {
+        let sides = [[1.0, 0.0, -0.5], [-1.0, 0.0, -0.5], [0.0, 1.0, -0.5], [0.0, -1.0, -0.5]];
+        let part = sides.iter().fold(corners.to_vec(), |part, side| clip(&part, *side));
+        part.iter().map(|p| gain[0] * p[0] + gain[1] * p[1] + gain[2]).fold(f64::INFINITY, f64::min)
+    }
+
     /// Entry of the table of tangents for a set of shadowed neighbours, bit k for the k-th around a
     /// texel from the right over the one below.
     ///
@@ -185,5 +245,65 @@ pub mod reference {
         let count = directions.len() as u32;
         let packed = directions.iter().enumerate().fold(0, |all, (i, d)| all | (d % 32) << (11 + 5 * i));
         kept | count << 8 | packed
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::reference::{quantize, dequantize, tangents};
+
+    /// Degrees from one level to the next around a slope, with an exponent n as in Eq. 3.
+    fn resolution(degrees: f64) -> f64 {
+        let level = quantize(degrees.to_radians().tan());
+        (dequantize(level + 0.5).atan() - dequantize(level - 0.5).atan()).to_degrees()
+    }
+
+    #[test]
+    fn steep_slopes_have_the_published_resolution() {
+        assert!((resolution(80.0) - 0.17).abs() < 0.06, "{}", resolution(80.0));
+        assert!(resolution(80.0) < 0.71 / 3.0, "linear levels are 0.71° apart");
+        assert!(resolution(40.0) > resolution(80.0));
+        for level in 1..254 {
+            assert!((quantize(dequantize(f64::from(level))) - f64::from(level)).abs() < 1e-6);
+        }
+    }
+
+    fn directions(entry: u32) -> Vec<u32> {
+        (0..(entry >> 8 & 7)).map(|i| entry >> (11 + 5 * i) & 31).collect()
+    }
+
+    #[test]
+    fn tangents_of_known_patterns() {
+        // Right half shadowed: away from it is left. Below: up. All, none.
+        assert_eq!(directions(tangents(0b1100_0111)), [16]);
+        assert_eq!(directions(tangents(0b0001_1111)), [24]);
+        assert_eq!(directions(tangents(0b1111_1111)), [0; 0]);
+        assert_eq!(directions(tangents(0)).len(), 2);
+        // A bar from left to right has a border above and one below.
+        assert_eq!(directions(tangents(0b0001_0001)), [8, 24]);
+        // A missing corner is a border of its own.
+        assert_eq!(directions(tangents(0b1111_1101)), [4]);
+    }
+
+    #[test]
+    fn neighbours_that_hang_on_nothing_do_not_count() {
+        // The upper left corner alone, and beside a shadowed right side.
+        assert_eq!(tangents(0b0010_0000) & 255, 0);
+        assert_eq!(tangents(0b0010_0001), tangents(0b0000_0001));
+        assert_eq!(tangents(0b0011_0001) & 255, 0b0011_0001);
+    }
+
+    #[test]
+    fn tangents_turn_with_the_pattern() {
+        for pattern in 1..256_u32 {
+            let turned = (pattern << 2 | pattern >> 6) & 255;
+            let mut expected: Vec<u32> = directions(tangents(pattern)).iter().map(|d| (d + 8) % 32).collect();
+            let mut found = directions(tangents(turned));
+            expected.sort_unstable();
+            found.sort_unstable();
+            if tangents(pattern) & 255 != 0 {
+                assert_eq!(found, expected, "{pattern:08b}");
+            }
+        }
     }
 }
