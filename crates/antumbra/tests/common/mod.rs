@@ -227,7 +227,7 @@ fn triangle_map(
     options: Options,
     views: &[View],
 ) -> ShadowMap {
-    const INSET: f32 = 3e-4;
+    const INSET: f32 = 2e-3;
     let size = texels_of(depth);
     let meshes: Vec<CasterMesh> = views
         .iter()
