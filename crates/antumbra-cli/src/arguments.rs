@@ -62,7 +62,9 @@ const CURVE_EXAMPLES: &str = "Examples:
 Figure 3 of Annen et al. 2007 (number of terms; attenuation; offset; scale):
   antumbra curve csm.lift=none,attenuation=0,terms=1 csm.lift=none,attenuation=0,terms=4 \\
     csm.lift=none,attenuation=0 / csm.lift=none,attenuation=0 csm.lift=none \\
-    / csm.lift=none csm.lift=offset / csm.lift=none csm.lift=scale -o figure3.svg";
+    / csm.lift=none csm.lift=offset / csm.lift=none csm.lift=scale -o figure3.svg
+
+Values are what receivers get: without bias, and clamped to 0..1, so that ringing beyond shows as a flat.";
 
 const MAPS_EXAMPLES: &str = "Examples:
   antumbra maps contact --technique csm -o basis

@@ -89,11 +89,11 @@ fn files(trials: &mut Trials) {
 fn settings(trials: &mut Trials) {
     let cases: &[(&str, &[&str])] = &[
         ("vms", &["'vms'", "hard, pcf, vsm, csm, esm", "did you mean vsm?"]),
-        ("esm.k=3", &["esm", "'k'", "c, kernel", "did you mean"]),
-        ("esm.c=100", &["esm.c = 100", "1 to 87"]),
-        ("esm.c=NaN", &["esm.c = NaN", "1 to 87"]),
-        ("esm.c=inf", &["esm.c = inf", "1 to 87"]),
-        ("csm.terms=0", &["csm.terms = 0", "1 to 16"]),
+        ("esm.k=3", &["esm", "'k'", "c, storage", "did you mean"]),
+        ("esm.c=100", &["esm.c = 100", "0 to 87"]),
+        ("esm.c=NaN", &["esm.c = NaN", "0 to 87"]),
+        ("esm.c=inf", &["esm.c = inf", "0 to 87"]),
+        ("csm.terms=0", &["csm.terms = 0", "1 to 32"]),
         ("csm.terms=2.5", &["csm.terms = 2.5", "whole"]),
         ("vsm.kernel=4", &["vsm.kernel = 4", "odd, 1 to 31"]),
         ("pcf.kernel=17", &["pcf.kernel = 17", "1 to 16"]),

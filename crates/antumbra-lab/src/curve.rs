@@ -3,7 +3,7 @@
 
 use crate::gpu::Gpu;
 use antumbra::{
-    DEPTH_FORMAT, NoProbe, Options, ShadowMap, Size, Technique, View,
+    DEPTH_FORMAT, Options, ShadowMap, Size, Technique, View,
     technique::{self, Bias},
 };
 use anyhow::{Context, Result};
@@ -19,13 +19,16 @@ const SIZE: Size = Size::square(64);
 /// # Errors
 /// Settings that the device cannot do, naming the technique; a lost device.
 pub fn visibility(gpu: &Gpu, technique: &dyn Technique, caster: f32, receivers: &[f32]) -> Result<Vec<f32>> {
-    let depth = flat(gpu, caster);
     let options = Options::from(SIZE).bias(Bias::NONE);
-    let mut shadows = ShadowMap::from_depth(&gpu.device, technique, &depth, options)
-        .with_context(|| technique::spec(technique))?;
+    let mut shadows =
+        ShadowMap::new(&gpu.device, technique, options).with_context(|| technique::spec(technique))?;
     shadows.prepare(&gpu.queue, &[view()])?;
+    let flat = flat(gpu, caster);
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    shadows.encode_filter(&mut encoder, &mut NoProbe);
+    shadows.encode(&mut encoder, |_, pass| {
+        pass.set_pipeline(&flat);
+        pass.draw(0..3, 0..1);
+    });
     let answers = ask(gpu, &shadows, receivers, &mut encoder);
     gpu.finish(encoder).with_context(|| technique::spec(technique))?;
     let bytes = gpu.map(&answers)?;
@@ -44,34 +47,35 @@ fn view() -> View {
     }
 }
 
-/// Depth that a caster parallel to the map would leave.
-fn flat(gpu: &Gpu, depth: f32) -> wgpu::Texture {
-    use wgpu::TextureUsages as Usage;
-    let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+/// Draws a caster parallel to the map over all of it.
+fn flat(gpu: &Gpu, depth: f32) -> wgpu::RenderPipeline {
+    let source = wgpu::ShaderSource::Wgsl(include_str!("curve/caster.wgsl").into());
+    let module = gpu.shader("flat caster", source);
+    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some("flat caster"),
-        size: wgpu::Extent3d { width: SIZE.width, height: SIZE.height, depth_or_array_layers: 1 },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format: DEPTH_FORMAT,
-        usage: Usage::RENDER_ATTACHMENT | Usage::TEXTURE_BINDING,
-        view_formats: &[],
-    });
-    let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    drop(encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-        label: Some("flat caster"),
-        depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-            view: &texture.create_view(&Default::default()),
-            depth_ops: Some(wgpu::Operations {
-                load: wgpu::LoadOp::Clear(depth),
-                store: wgpu::StoreOp::Store,
-            }),
-            stencil_ops: None,
+        layout: None,
+        vertex: wgpu::VertexState {
+            module: &module,
+            entry_point: Some("vertex"),
+            compilation_options: wgpu::PipelineCompilationOptions {
+                constants: &[("depth", f64::from(depth))],
+                ..Default::default()
+            },
+            buffers: &[],
+        },
+        primitive: Default::default(),
+        depth_stencil: Some(wgpu::DepthStencilState {
+            format: DEPTH_FORMAT,
+            depth_write_enabled: Some(true),
+            depth_compare: Some(wgpu::CompareFunction::LessEqual),
+            stencil: Default::default(),
+            bias: Default::default(),
         }),
-        ..Default::default()
-    }));
-    gpu.queue.submit([encoder.finish()]);
-    texture
+        multisample: Default::default(),
+        fragment: None,
+        multiview_mask: None,
+        cache: None,
+    })
 }
 
 /// Encodes one question per receiver; the answers lie in the buffer once the encoder has run.
@@ -114,7 +118,7 @@ fn ask(
         bind_group_layouts: &[Some(shadows.layout()), Some(&own)],
         immediate_size: 0,
     });
-    let module = gpu.shader("curve", shadows.wgsl(0).after(include_str!("curve.wgsl")));
+    let module = gpu.shader("curve", shadows.wgsl(0).after(include_str!("curve/ask.wgsl")));
     let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
         label: Some("curve"),
         layout: Some(&layout),

@@ -75,11 +75,13 @@ impl Picture {
     }
 }
 
-/// Linear depth of the casters as a view sees them, whatever the technique keeps.
+/// Linear depth of the casters as a view sees them, whatever the technique keeps. From now on that is
+/// the only view that the stage draws casters for.
 ///
 /// # Errors
 /// A lost device, or no room for the texture.
-pub fn depth(gpu: &Gpu, stage: &Stage, view: &View, [width, height]: [u32; 2]) -> Result<Picture> {
+pub fn depth(gpu: &Gpu, stage: &mut Stage, view: &View, [width, height]: [u32; 2]) -> Result<Picture> {
+    stage.set_views(gpu, &[*view]);
     let target = gpu.target("casters' depth", [width, height], DEPTH_FORMAT);
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     {

@@ -183,7 +183,7 @@ impl Stage {
     }
 
     /// Most views that casters are drawn for at a time.
-    pub const MOST_VIEWS: usize = 8;
+    pub const MOST_VIEWS: usize = 32;
 
     /// Takes the views that [`draw_casters`](Self::draw_casters) will be asked for, at most
     /// [`MOST_VIEWS`](Self::MOST_VIEWS); further ones are left out.

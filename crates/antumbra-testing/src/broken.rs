@@ -63,6 +63,9 @@ impl Technique for Broken {
     fn parameters(&mut self) -> Vec<Parameter<'_>> {
         self.inner.parameters()
     }
+    fn jitter(&self) -> Vec<glam::Vec2> {
+        self.inner.jitter()
+    }
     fn maps(&self, device: &Capabilities) -> Result<Vec<Map>, Unsupported> {
         let mut maps = self.inner.maps(device)?;
         for map in &mut maps {
@@ -106,6 +109,9 @@ impl Technique for Broken {
     }
     fn bias(&self) -> Bias {
         self.bias.unwrap_or_else(|| self.inner.bias())
+    }
+    fn depth_step(&self) -> f32 {
+        self.inner.depth_step()
     }
     fn depth_space(&self) -> DepthSpace {
         self.inner.depth_space()

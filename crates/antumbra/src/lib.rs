@@ -50,7 +50,12 @@
 //! | name | type | texel of the map | lookups | at its best, and its price |
 //! | --- | --- | --- | --- | --- |
 //! | `hard` | [`Hard`] | 4 bytes | 1 | the yardstick: aliased edges, needs bias |
-//! | `pcf` | [`Pcf`] | 4 bytes | n² | the quality that others approximate; the cost grows with the kernel |
+//! | `pcf` | [`Pcf`] | 4 bytes | ⌈(n+1)/2⌉² | the quality that others approximate; the cost grows with the kernel |
+//! | `poisson` | [`Poisson`] | 4 bytes | 4 to 64 | any width for the price of its points; noise or bands instead of smooth penumbrae |
+//! | `bicubic` | [`Bicubic`] | 4 bytes | 4 | the smoothest edge of four lookups; its width is fixed |
+//! | `footprint` | [`Footprint`] | 4 bytes | 1 to 16 | as wide as the pixel: antialiases distant receivers; hard where magnified |
+//! | `packed` | [`Packed`] | 16 bytes (4 or 8 as options) | 1 or 4 | four depths per fetch; 5 or 17 levels of grey |
+//! | `stratified` | [`Stratified`] | 16·⌈n²/4⌉ bytes (less as options) | ⌈n²/4⌉ | n times the resolution; the casters are drawn n² times |
 //! | `vsm` | [`Vsm`] | 8 bytes, 1⅓ times with mips | 1 | any blur for the price of its passes; light bleeds where casters overlap |
 //! | `csm` | [`Csm`] | 4·⌈M/2⌉ bytes, 1⅓ times with mips | ⌈M/2⌉ | does not bleed between layers; bright near contact, rings |
 //! | `esm` | [`Esm`] | 4 bytes, 1⅓ times with mips | 1 | cheapest filtered map, no bias; too bright where casters lie close behind one another |
@@ -103,6 +108,7 @@ mod light;
 mod map;
 mod parameter;
 mod pass;
+mod precision;
 mod shader;
 mod table;
 pub mod technique;
@@ -118,9 +124,11 @@ pub use map::{
     TooManyViews,
 };
 pub use parameter::{Choice, Field, Parameter};
+pub use precision::Precision;
 pub use shader::{CASTER_WGSL, ShaderText};
 pub use table::Table;
 pub use technique::{
-    Technique, csm::Csm, esm::Esm, evsm::Evsm, hard::Hard, lvsm::Lvsm, msm::Msm, pcf::Pcf, spsm::Spsm,
+    Technique, bicubic::Bicubic, csm::Csm, esm::Esm, evsm::Evsm, footprint::Footprint, hard::Hard,
+    lvsm::Lvsm, msm::Msm, packed::Packed, pcf::Pcf, poisson::Poisson, spsm::Spsm, stratified::Stratified,
     vsm::Vsm,
 };

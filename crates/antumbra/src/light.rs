@@ -1,7 +1,7 @@
 //! Where a light looks from: pure functions from lights and bounds to [`View`]s.
 
 use crate::error::LightError;
-use glam::{DMat4, DVec3, DVec4, Mat4, Vec3, Vec4};
+use glam::{DMat4, DVec3, DVec4, Mat4, Vec2, Vec3, Vec4};
 
 /// Texels of a map.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -91,6 +91,16 @@ pub struct View {
     pub near_over_far: f32,
     /// World length of the depth range `[0,1]`.
     pub depth_world: f32,
+}
+
+impl View {
+    /// The same view with the image plane shifted, so that texel centres lie `offset` texels further on,
+    /// y down.
+    #[must_use]
+    pub fn jittered(&self, size: Size, offset: Vec2) -> Self {
+        let shift = Vec3::new(-2.0 * offset.x / size.width as f32, 2.0 * offset.y / size.height as f32, 0.0);
+        Self { clip_from_world: Mat4::from_translation(shift) * self.clip_from_world, ..*self }
+    }
 }
 
 /// Rows of a light's own space: right, down... as used here right, up and the way it looks.

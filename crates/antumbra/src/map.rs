@@ -8,6 +8,7 @@ use crate::{
     shader::{self, ShaderText},
     technique::{self, Bias, Binding, Caster, Map, Technique},
 };
+use glam::Vec2;
 use wgpu::{RenderPass, TextureFormat};
 
 mod caster;
@@ -104,6 +105,10 @@ struct Draw {
     groups: u32,
     bind_group: wgpu::BindGroup,
     targets: Vec<wgpu::TextureView>,
+    /// The caster pass that it follows, if not the last.
+    cast: Option<u32>,
+    /// Whether channels that it does not write stay.
+    keeps: bool,
 }
 
 /// Textures, pipelines and bindings of one technique at one size.
@@ -126,6 +131,9 @@ pub struct ShadowMap {
     layout: wgpu::BindGroupLayout,
     bind_group: wgpu::BindGroup,
     views: Vec<View>,
+    jitter: Vec<Vec2>,
+    /// One per view and caster pass.
+    caster_views: Vec<View>,
 }
 
 impl ShadowMap {
@@ -142,7 +150,8 @@ impl ShadowMap {
     }
 
     /// Reads depth that the caller renders herself: a 2-D texture of any depth format (beside a
-    /// stencil, the depth alone is read), one layer per view, with usage `TEXTURE_BINDING`, z in
+    /// stencil, the depth alone is read), one layer per view (and caster pass, in the order of
+    /// [`caster_views`](Self::caster_views)), with usage `TEXTURE_BINDING`, z in
     /// `[0,1]` from near to far as
     /// [`View::clip_from_world`] gives it. `options.size` and `options.views` are taken from the
     /// texture. Use [`encode_filter`](Self::encode_filter) instead of `encode`.
@@ -155,9 +164,9 @@ impl ShadowMap {
         depth: &wgpu::Texture,
         options: impl Into<Options>,
     ) -> Result<Self, Unsupported> {
-        check::depth(depth)?;
+        let views = check::depth(depth, technique.jitter().len() as u32)?;
         let size = Size { width: depth.width(), height: depth.height() };
-        let options = Options { size, views: depth.depth_or_array_layers(), ..options.into() };
+        let options = Options { size, views, ..options.into() };
         Self::build(device, technique, &options, Some(depth))
     }
 
@@ -185,6 +194,7 @@ impl ShadowMap {
         let bias = options.bias.unwrap_or_else(|| technique.bias());
         bias.check()?;
         let uniforms = Uniforms::new(device, technique, bias, options);
+        let jitter = technique.jitter();
         let steps = pass::plan(technique, &capabilities, &maps, options.size);
         let draws = (0..options.views)
             .map(|view| {
@@ -204,6 +214,8 @@ impl ShadowMap {
             layout,
             bind_group,
             views: Vec::with_capacity(options.views as usize),
+            caster_views: Vec::with_capacity(options.views as usize * jitter.len()),
+            jitter,
         })
     }
 
@@ -218,6 +230,10 @@ impl ShadowMap {
         }
         self.views.clear();
         self.views.extend_from_slice(views);
+        self.caster_views.clear();
+        let jittered = |view: &View, offset: Vec2| view.jittered(self.size, offset);
+        self.caster_views
+            .extend(views.iter().flat_map(|view| self.jitter.iter().map(move |o| jittered(view, *o))));
         self.uniforms.write(queue, views);
         if let Some(triangles) = &self.triangles {
             triangles.write(queue, views);
@@ -227,7 +243,8 @@ impl ShadowMap {
 
     /// Draws the casters of every view and filters what they leave. `draw` gets the view, whose
     /// [`clip_from_world`](View::clip_from_world) places the casters, and a pass with a depth
-    /// attachment of [`DEPTH_FORMAT`], cleared to 1, and no colour. If the technique's
+    /// attachment of [`DEPTH_FORMAT`], cleared to 1, and no colour. A technique that draws them several
+    /// times asks for each of [`caster_views`](Self::caster_views). If the technique's
     /// [`caster`](Technique::caster) is [`Caster::Triangles`], the pass has its pipeline and group 0
     /// set, and `draw`, which is called once per layer, calls [`CasterMesh::draw`].
     pub fn encode(&self, encoder: &mut wgpu::CommandEncoder, draw: impl FnMut(&View, &mut RenderPass<'_>)) {
@@ -241,30 +258,34 @@ impl ShadowMap {
         probe: &mut dyn Probe,
         mut draw: impl FnMut(&View, &mut RenderPass<'_>),
     ) {
+        let last = self.jitter.len() - 1;
         for view in 0..self.views.len() {
-            for layer in 0..self.triangles.as_ref().map_or(1, TriangleCaster::passes) {
-                self.encode_cast(encoder, (view, layer), probe, &mut draw);
+            for cast in 0..=last {
+                for layer in 0..self.triangles.as_ref().map_or(1, TriangleCaster::passes) {
+                    self.encode_cast(encoder, (view, cast, layer), probe, &mut draw);
+                }
+                let follows = |draw: &Draw| draw.cast.map_or(last, |c| c as usize) == cast;
+                self.encode_view_filter(encoder, view, follows, probe);
             }
-            self.encode_view_filter(encoder, view, probe);
         }
     }
 
     /// Filters depth that the caller has rendered ([`from_depth`](Self::from_depth)).
     pub fn encode_filter(&self, encoder: &mut wgpu::CommandEncoder, probe: &mut dyn Probe) {
         for view in 0..self.views.len() {
-            self.encode_view_filter(encoder, view, probe);
+            self.encode_view_filter(encoder, view, |_| true, probe);
         }
     }
 
     fn encode_cast(
         &self,
         encoder: &mut wgpu::CommandEncoder,
-        (view, layer): (usize, usize),
+        (view, cast, layer): (usize, usize, usize),
         probe: &mut dyn Probe,
         draw: &mut impl FnMut(&View, &mut RenderPass<'_>),
     ) {
         let target = self.triangles.is_some().then(|| self.textures.map_target(view, layer));
-        let target = target.map(textures::overwrite);
+        let target = target.map(|target| textures::written(target, false));
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("shadow cast"),
             color_attachments: if target.is_some() { std::slice::from_ref(&target) } else { &[] },
@@ -284,7 +305,7 @@ impl ShadowMap {
             pass.set_pipeline(&triangles.pipeline);
             pass.set_bind_group(0, triangles.group(view, layer), &[]);
         }
-        draw(&self.views[view], &mut pass);
+        draw(&self.caster_views[view * self.jitter.len() + cast], &mut pass);
     }
 
     /// For casters with holes, where the technique's caster is [`Caster::Triangles`]: the pipeline to
@@ -316,8 +337,14 @@ impl ShadowMap {
         self.triangles.as_ref().map(|t| &t.pipeline)
     }
 
-    fn encode_view_filter(&self, encoder: &mut wgpu::CommandEncoder, view: usize, probe: &mut dyn Probe) {
-        for draw in &self.draws[view] {
+    fn encode_view_filter(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        view: usize,
+        now: impl Fn(&Draw) -> bool,
+        probe: &mut dyn Probe,
+    ) {
+        for draw in self.draws[view].iter().filter(|draw| now(draw)) {
             match &draw.run {
                 Run::Draw(pipeline) => draw_step(encoder, draw, pipeline, probe.pass(draw.label, view)),
                 Run::Dispatch(pipeline) => {
@@ -336,6 +363,14 @@ impl ShadowMap {
                 }
             }
         }
+    }
+
+    /// The views that [`encode`](Self::encode) asks the casters for, in order: those of
+    /// [`prepare`](Self::prepare), or several for each of them, shifted by fractions of a texel
+    /// ([`Technique::jitter`]).
+    #[must_use]
+    pub fn caster_views(&self) -> &[View] {
+        &self.caster_views
     }
 
     /// Layout of [`bind_group`](Self::bind_group), visible to fragment and compute shaders.
@@ -443,7 +478,7 @@ fn draw_step(
     timestamp_writes: Option<wgpu::RenderPassTimestampWrites<'_>>,
 ) {
     let attachments: [_; MOST_TARGETS] =
-        std::array::from_fn(|i| draw.targets.get(i).map(textures::overwrite));
+        std::array::from_fn(|i| draw.targets.get(i).map(|t| textures::written(t, draw.keeps)));
     let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
         label: Some(draw.label),
         color_attachments: &attachments[..draw.targets.len()],
@@ -468,7 +503,7 @@ fn draw(
 ) -> Draw {
     let format = |slot| match slot {
         Slot::Map(i) | Slot::Scratch(i) => maps[i].format,
-        Slot::Casters => DEPTH_FORMAT,
+        Slot::Casters | Slot::Cast(..) => DEPTH_FORMAT,
     };
     let formats: Vec<TextureFormat> = step.targets.iter().map(|t| format(t.slot)).collect();
     let pipeline = pipelines.get(step, &formats);
@@ -478,5 +513,6 @@ fn draw(
         Work::Draw => 0,
         Work::Lanes(lanes) => lanes.div_ceil(pass::WORKGROUP),
     };
-    Draw { label: step.label, run: pipeline.run, groups, bind_group, targets }
+    let (cast, keeps) = (step.cast(), step.writes().1);
+    Draw { label: step.label, run: pipeline.run, groups, bind_group, targets, cast, keeps }
 }

@@ -20,6 +20,8 @@ mod sum;
 pub(crate) enum Slot {
     /// The casters' depth of the view.
     Casters,
+    /// The depth of one of several caster passes of the view: its number, and how many there are.
+    Cast(u32, u32),
     /// Entry of `Technique::maps`; layers count from the view's first.
     Map(usize),
     /// A few layers of the size and format of that map, between the two halves of a separable filter.
@@ -58,6 +60,26 @@ pub(crate) struct Step {
     pub(crate) source: Place,
     pub(crate) source_layers: u32,
     pub(crate) targets: Vec<Place>,
+}
+
+impl Step {
+    /// The caster pass that it follows, if not the last.
+    pub(crate) fn cast(&self) -> Option<u32> {
+        match self.source.slot {
+            Slot::Cast(cast, _) => Some(cast),
+            _ => None,
+        }
+    }
+
+    /// The channels that it writes, and whether those of an earlier step stay.
+    pub(crate) fn writes(&self) -> (wgpu::ColorWrites, bool) {
+        use wgpu::ColorWrites as Writes;
+        const CHANNELS: [Writes; 4] = [Writes::RED, Writes::GREEN, Writes::BLUE, Writes::ALPHA];
+        match self.cast() {
+            Some(cast) => (CHANNELS[cast as usize % 4], !cast.is_multiple_of(4)),
+            None => (Writes::ALL, false),
+        }
+    }
 }
 
 /// A run of layers that one step can write.
@@ -135,8 +157,16 @@ pub(crate) fn plan(technique: &dyn Technique, device: &Capabilities, maps: &[Map
     if technique.caster() != Caster::Depth {
         return steps;
     }
+    let casts = technique.jitter().len() as u32;
     for (index, map) in maps.iter().enumerate() {
         let source = Source::new(technique, device, map);
+        if casts > 1 {
+            steps.extend((0..casts).map(|cast| {
+                let step = source.plain(Run { map: index, first: cast / 4, count: 1 });
+                Step { source: Place { slot: Slot::Cast(cast, casts), ..step.source }, ..step }
+            }));
+            continue;
+        }
         if let Some(table) = map.passes.iter().find_map(|p| if let Pass::Sum(t) = p { Some(t) } else { None })
         {
             steps.extend(sum::steps(&source, table, index, map.layers, size));

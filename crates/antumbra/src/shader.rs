@@ -7,7 +7,7 @@
 
 use crate::{
     capabilities::Capabilities,
-    technique::{Binding, Constant, DepthSpace, Map, Technique},
+    technique::{Binding, Constant, DepthSpace, Family, Map, Technique},
 };
 use std::fmt::Write;
 
@@ -31,6 +31,15 @@ const FILES: &[(&str, &str)] = &[
     ("quantizer", include_str!("shader/quantizer.wgsl")),
     ("raster", include_str!("shader/raster.wgsl")),
     ("receiver", include_str!("shader/receiver.wgsl")),
+    ("reference_exact", include_str!("shader/reference/exact.wgsl")),
+    ("reference_stepped", include_str!("shader/reference/stepped.wgsl")),
+    ("spin_fixed", include_str!("shader/spin/fixed.wgsl")),
+    ("spin_noise", include_str!("shader/spin/noise.wgsl")),
+    ("taps_bilinear", include_str!("shader/taps/bilinear.wgsl")),
+    ("taps_gather", include_str!("shader/taps/gather.wgsl")),
+    ("taps_merged", include_str!("shader/taps/merged.wgsl")),
+    ("taps_nearest", include_str!("shader/taps/nearest.wgsl")),
+    ("taps_weights", include_str!("shader/taps/weights.wgsl")),
     ("words_1", include_str!("shader/words/1.wgsl")),
     ("words_2", include_str!("shader/words/2.wgsl")),
     ("words_4", include_str!("shader/words/4.wgsl")),
@@ -177,7 +186,7 @@ pub(crate) fn receiver(
     let name = technique.page().name;
     let mut glue = format!(
         "struct ShadowView {{ clip_from_world: mat4x4f, depth_plane: vec4f, to_light: vec4f, texel_world: f32, near_over_far: f32, reach_x: f32, reach_y: f32 }}\n\
-         struct ShadowUniforms {{\n    views: array<ShadowView, {views}>,\n    view_count: u32, width: f32, height: f32,\n    constant_texels: f32, slope_texels: f32, normal_offset_texels: f32,\n"
+         struct ShadowUniforms {{\n    views: array<ShadowView, {views}>,\n    view_count: u32, width: f32, height: f32,\n    constant_texels: f32, slope_texels: f32, normal_offset_texels: f32,\n    receiver_plane: f32, constant_depth: f32,\n"
     );
     for (uniform, _) in technique.uniforms() {
         let _ = writeln!(glue, "    setting_{uniform}: f32,");
@@ -204,9 +213,15 @@ pub(crate) fn receiver(
             "1.0",
         ),
     };
+    // Other families do not compare texels one by one: what they do with the plane is no bias.
+    let followed = match technique.page().family {
+        Family::Comparison => "shadow.receiver_plane * plane",
+        Family::Basis | Family::Geometry => "plane",
+    };
     let mut function = |kind: &str, result: &str, outside: &str| {
-        let call =
-            format!("{name}_{kind}({arguments}uv, view, depth, plane, gradient_x, gradient_y{settings})");
+        let call = format!(
+            "{name}_{kind}({arguments}uv, view, depth, {followed}, gradient_x, gradient_y{settings})"
+        );
         glue += &include_str!("shader/visibility.wgsl.in")
             .replace("{kind}", kind)
             .replace("{result}", result)

@@ -6,8 +6,8 @@
 mod common;
 
 use antumbra::{
-    Capabilities, Csm, Esm, Evsm, Filter, Hard, LightError, NoProbe, Options, Pcf, Pipelines, SettingError,
-    ShadowMap, Size, Technique, Unsupported, Vsm, technique,
+    Capabilities, Csm, Esm, Evsm, Filter, Hard, LightError, NoProbe, Options, Pcf, Pipelines, Sampling,
+    SettingError, ShadowMap, Size, Technique, Unsupported, Vsm, technique,
     technique::{Bias, evsm},
 };
 use antumbra_testing::{Gpu, Trials};
@@ -54,17 +54,18 @@ fn uniforms(_: &Gpu) {
     let limits = wgpu::Limits { max_uniform_buffer_binding_size: 16 << 10, ..Default::default() };
     let lesser = antumbra_testing::gpu_with(wgpu::Features::empty(), limits).unwrap();
     lesser.checked(|gpu| {
-        let message = refusal(gpu, &Hard, Options::from(SIZE).views(147));
+        let message = refusal(gpu, &Hard::default(), Options::from(SIZE).views(147));
         says(&message, &["147 views", "16384", "at most 146 views"]);
-        let mut made = ShadowMap::new(&gpu.device, &Hard, Options::from(SIZE).views(146)).unwrap();
+        let mut made = ShadowMap::new(&gpu.device, &Hard::default(), Options::from(SIZE).views(146)).unwrap();
         made.prepare(&gpu.queue, &[common::view(SIZE); 146]).unwrap();
     });
 }
 
 fn settings_in_public_fields(gpu: &Gpu) {
     let filter = |f: Filter| Esm { filter: f, ..Esm::default() };
-    let cases: [(Box<dyn Technique>, &[&str]); 13] = [
-        (Box::new(Esm { c: 88.0, ..Esm::default() }), &["esm.c", "88", "1 to 87"]),
+    let summed = |kernel| Filter { kernel, sampling: Sampling::Summed, ..Filter::default() };
+    let cases: [(Box<dyn Technique>, &[&str]); 17] = [
+        (Box::new(Esm { c: 88.0, ..Esm::default() }), &["esm.c", "88", "0 to 87"]),
         (Box::new(Esm { c: f32::NAN, ..Esm::default() }), &["esm.c", "NaN"]),
         (Box::new(filter(Filter { kernel: 4, ..Filter::default() })), &["esm.kernel", "4", "odd, 1 to 31"]),
         (Box::new(filter(Filter { kernel: 33, ..Filter::default() })), &["esm.kernel", "33"]),
@@ -73,7 +74,11 @@ fn settings_in_public_fields(gpu: &Gpu) {
             Box::new(filter(Filter { anisotropy: 0, ..Filter::default() })),
             &["esm.anisotropy", "0", "1 to 16"],
         ),
-        (Box::new(Csm { terms: 0, ..Csm::default() }), &["csm.terms", "0", "1 to 16"]),
+        (Box::new(filter(Filter { kernel: 0, ..Filter::default() })), &["esm.kernel", "0"]),
+        (Box::new(filter(summed(257))), &["esm.kernel", "257", "odd, 1 to 255"]),
+        (Box::new(Esm { c: 80.0, ..filter(summed(3)) }), &["esm.c", "80", "0 to 72"]),
+        (Box::new(Esm { epsilon: -0.01, ..Esm::default() }), &["esm.epsilon", "-0.01", "0 to 10"]),
+        (Box::new(Csm { terms: 0, ..Csm::default() }), &["csm.terms", "0", "1 to 32"]),
         (Box::new(Csm { attenuation: f32::INFINITY, ..Csm::default() }), &["csm.attenuation", "inf"]),
         (Box::new(Evsm { negative: 42.1, ..Evsm::default() }), &["evsm.negative", "42.1", "0 to 42"]),
         (
@@ -110,20 +115,26 @@ fn settings_in_public_fields(gpu: &Gpu) {
 
 fn bias(gpu: &Gpu) {
     let nan = Bias { slope_texels: f32::NAN, ..Bias::NONE };
-    says(&refusal(gpu, &Hard, Options::from(SIZE).bias(nan)), &["bias.slope_texels", "NaN", "finite"]);
+    says(
+        &refusal(gpu, &Hard::default(), Options::from(SIZE).bias(nan)),
+        &["bias.slope_texels", "NaN", "finite"],
+    );
     let endless = Bias { constant_texels: f32::INFINITY, ..Bias::NONE };
-    says(&refusal(gpu, &Hard, Options::from(SIZE).bias(endless)), &["bias.constant_texels", "inf"]);
+    says(
+        &refusal(gpu, &Hard::default(), Options::from(SIZE).bias(endless)),
+        &["bias.constant_texels", "inf"],
+    );
 }
 
 fn specs() {
     let message = |spec: &str| technique::parse(spec).unwrap_err().to_string();
-    says(&message("pcss"), &["'pcss'", "hard, pcf, vsm, csm, esm"]);
+    says(&message("pcss"), &["'pcss'", "hard, pcf, poisson"]);
     says(&message(""), &["unknown technique ''"]);
-    says(&message("esm.kernal=3"), &["esm", "'kernal'", "c, kernel, weights"]);
+    says(&message("esm.kernal=3"), &["esm", "'kernal'", "c, storage, classifier"]);
     says(&message("esm.kernel"), &["esm.kernel", "no '='"]);
     says(&message("esm.kernel=four"), &["esm.kernel", "four", "odd, 1 to 31"]);
     says(&message("esm.kernel=4"), &["esm.kernel", "4", "odd, 1 to 31"]);
-    says(&message("esm.c=nan"), &["esm.c", "nan", "1 to 87"]);
+    says(&message("esm.c=nan"), &["esm.c", "nan", "0 to 87"]);
     says(&message("pcf.taps=cubic"), &["pcf.taps", "cubic", "nearest | bilinear"]);
     // What was refused has not changed the setting.
     let mut esm = technique::parse("esm").unwrap();
@@ -160,7 +171,7 @@ fn callers_depth(gpu: &Gpu) {
         ("samples", "4", "1", texture(gpu, |d| d.sample_count = 4)),
     ];
     for (what, found, needed, depth) in cases {
-        let error = ShadowMap::from_depth(&gpu.device, &Hard, &depth, SIZE).unwrap_err();
+        let error = ShadowMap::from_depth(&gpu.device, &Hard::default(), &depth, SIZE).unwrap_err();
         assert!(matches!(error, Unsupported::Depth { .. }));
         says(&error.to_string(), &[what, found, needed]);
     }

@@ -13,7 +13,7 @@ use antumbra_testing::{
     Gpu, Trials,
     image::{Image, Tolerance},
 };
-use common::{Receiver, depth_texture, shadow_map, visibility};
+use common::{Receiver, depth_layers, depth_texture, shadow_map, visibility};
 use glam::{Vec2, Vec3};
 use std::path::PathBuf;
 
@@ -69,10 +69,15 @@ fn receivers() -> Vec<Receiver> {
 }
 
 fn picture(gpu: &Gpu, spec: &str, bias: Option<Bias>) -> Vec<f32> {
-    let texel = |i: u32| (i as f32 + 0.5) / 64.0;
-    let depth = depth_texture(gpu, SIZE, |x, y| nearest(texel(x), texel(y)));
+    let technique = technique::parse(spec).unwrap();
+    let jitter = technique.jitter();
+    let texel = |i: u32, offset: f32| (i as f32 + 0.5 + offset) / 64.0;
+    let depth = depth_layers(gpu, SIZE, jitter.len() as u32, |pass, x, y| {
+        let offset = jitter[pass as usize];
+        nearest(texel(x, offset.x), texel(y, offset.y))
+    });
     let options = Options { bias, ..SIZE.into() };
-    let shadows = shadow_map(gpu, technique::parse(spec).unwrap().as_ref(), &depth, options);
+    let shadows = shadow_map(gpu, technique.as_ref(), &depth, options);
     visibility(gpu, &shadows, &receivers())
 }
 
@@ -124,6 +129,80 @@ fn pcf_has_as_many_levels_as_taps(gpu: &Gpu) {
     assert!((5..=10).contains(&nearest), "{nearest} levels from 9 taps");
     let bilinear = levels(&picture(gpu, "pcf.kernel=3,weights=box", None));
     assert!(bilinear > 20, "{bilinear} levels from interpolated taps");
+}
+
+/// Largest difference of pixels side by side along the disc's rim.
+fn roughness(picture: &[f32]) -> f32 {
+    let rim = |i: usize| {
+        let uv = receivers()[i].uv;
+        in_disc(uv.x, uv.y, 0.03) && !in_disc(uv.x, uv.y, -0.03) && !in_sheet(uv.x, uv.y, 0.05)
+    };
+    let pairs = (1..picture.len()).filter(|i| i % SIDE as usize != 0 && rim(*i));
+    pairs.map(|i| (picture[i] - picture[i - 1]).abs()).fold(0.0, f32::max)
+}
+
+fn bicubic_has_the_smoothest_edge_of_four_lookups(gpu: &Gpu) {
+    let edge = |spec| roughness(&picture(gpu, spec, None));
+    let (bicubic, bilinear, grid) = (edge("bicubic"), edge("pcf.kernel=1"), edge("pcf.kernel=3,weights=box"));
+    assert!(bicubic < 0.8 * bilinear, "{bicubic}, one lookup {bilinear}");
+    assert!(bicubic < 0.45 && grid < 0.45, "{bicubic}, four merged lookups {grid}");
+}
+
+/// Along the ramp's straight side a fixed disk answers the same everywhere, a turned one scatters.
+fn poisson_turns_bands_into_noise(gpu: &Gpu) {
+    let wide = |spin| picture(gpu, &format!("poisson.kernel=6,points=8,spin={spin}"), None);
+    let scatter = |picture: &[f32]| {
+        let column = |u: f32| (u * SIDE as f32) as u32;
+        let side = (column(0.6)..column(0.7)).map(|x| {
+            let values: Vec<f32> =
+                (column(0.63)..column(0.72)).map(|y| picture[(y * SIDE + x) as usize]).collect();
+            largest(&values) - values.iter().fold(1.0, |a: f32, b| a.min(*b))
+        });
+        side.fold(0.0, f32::max)
+    };
+    let (fixed, noise) = (wide("fixed"), wide("noise"));
+    assert!(scatter(&fixed) < 1e-3, "{}", scatter(&fixed));
+    assert!(scatter(&noise) > 0.15, "{}", scatter(&noise));
+    // The noise does not move the shadow.
+    assert!((mean(&noise) - mean(&fixed)).abs() < 2e-3, "{} {}", mean(&noise), mean(&fixed));
+}
+
+fn footprint_grows_with_the_pixel(gpu: &Gpu) {
+    let texel = |i: u32| (i as f32 + 0.5) / 64.0;
+    let depth = depth_texture(gpu, SIZE, |x, y| nearest(texel(x), texel(y)));
+    let technique = technique::parse("footprint.budget=64").unwrap();
+    let shadows = shadow_map(gpu, technique.as_ref(), &depth, SIZE.into());
+    let edge = |texels: f32| {
+        let receivers: Vec<Receiver> = receivers()
+            .into_iter()
+            .map(|r| Receiver { footprint: Vec2::splat(texels / SIZE.width as f32), ..r })
+            .collect();
+        roughness(&visibility(gpu, &shadows, &receivers))
+    };
+    let (small, large) = (edge(0.5), edge(6.0));
+    assert!(large < 0.4 * small, "a pixel of half a texel {small}, of six {large}");
+}
+
+/// Whether every value is a whole number of steps.
+fn in_steps_of(picture: &[f32], step: f32) -> bool {
+    picture.iter().all(|v| (v / step - (v / step).round()).abs() < 1e-3)
+}
+
+fn packed_has_the_levels_of_the_paper(gpu: &Gpu) {
+    let [two, four] = ["packed", "packed.grid=4"].map(|spec| picture(gpu, spec, None));
+    assert!(levels(&two) == 5 && in_steps_of(&two, 1.0 / 4.0), "{} levels of 2×2", levels(&two));
+    assert!(levels(&four) == 17 && in_steps_of(&four, 1.0 / 16.0), "{} levels of 4×4", levels(&four));
+    let bytes = levels(&picture(gpu, "packed.grid=4,accumulation=bytes", None));
+    assert!((20..=35).contains(&bytes), "{bytes} levels of 4×4 in bytes");
+}
+
+fn stratified_has_as_many_levels_as_samples(gpu: &Gpu) {
+    for grid in [2_u32, 3, 4] {
+        let picture = picture(gpu, &format!("stratified.grid={grid}"), None);
+        let samples = grid * grid;
+        assert!(in_steps_of(&picture, 1.0 / samples as f32), "{grid}×{grid}");
+        assert!(levels(&picture) <= samples as usize + 1 && levels(&picture) > samples as usize / 2);
+    }
 }
 
 fn vsm_bleeds_between_two_layers(gpu: &Gpu) {
@@ -228,6 +307,11 @@ fn main() {
     const CLAIMS: &[Claim] = &[
         ("hard", "two levels", hard_has_two_levels),
         ("pcf", "as many levels as taps", pcf_has_as_many_levels_as_taps),
+        ("poisson", "turns bands into noise", poisson_turns_bands_into_noise),
+        ("bicubic", "smoothest edge of four lookups", bicubic_has_the_smoothest_edge_of_four_lookups),
+        ("footprint", "grows with the pixel", footprint_grows_with_the_pixel),
+        ("packed", "the levels of the paper", packed_has_the_levels_of_the_paper),
+        ("stratified", "as many levels as samples", stratified_has_as_many_levels_as_samples),
         ("vsm", "bleeds between two layers", vsm_bleeds_between_two_layers),
         ("csm", "brighter at contact with fewer terms", csm_is_brighter_at_contact_with_fewer_terms),
         ("esm", "needs no bias", esm_needs_no_bias),

@@ -46,7 +46,7 @@ pub(crate) fn run(arguments: &Maps) -> Result<()> {
             written.push((file, picture.scale, picture.range));
             Ok(())
         };
-        take(maps::depth(&gpu, &stage, &view, [arguments.scene.size; 2])?)?;
+        take(maps::depth(&gpu, &mut stage, &view, [arguments.scene.size; 2])?)?;
         maps::pictures(&gpu, shadows, arguments.level, &mut take)?;
         files::write_atomically(&folder.join(SHEET), &sheet.image().to_png()?)?;
         let pictures: Vec<Value> = written

@@ -47,7 +47,7 @@ impl Contestant {
 }
 
 /// Makes a shadow map of `map_size` × `map_size` texels for every technique, sharing pipelines, and
-/// gives all of them and the stage the light's only view.
+/// gives all of them the light's only view, and the stage the views that they draw casters for.
 ///
 /// # Errors
 /// Settings that the device cannot do (naming the technique), a light or camera without a view.
@@ -74,9 +74,15 @@ pub fn enter(
     }
     let maps: Vec<&ShadowMap> = contestants.iter().map(|c| &c.shadows).collect();
     let view = view(stage, geometry, light, &maps)?;
-    stage.set_views(gpu, &[view]);
+    let mut caster_views = Vec::new();
     for contestant in &mut contestants {
         contestant.shadows.prepare(&gpu.queue, &[view])?;
+        for view in contestant.shadows.caster_views() {
+            if !caster_views.contains(view) {
+                caster_views.push(*view);
+            }
+        }
     }
+    stage.set_views(gpu, &caster_views);
     Ok((contestants, view))
 }

@@ -71,8 +71,8 @@ impl Shot {
     }
 
     /// What one of them answers for every pixel.
-    pub(crate) fn visibility(&mut self, shadows: &ShadowMap, view: &View) -> Plane {
-        self.stage.set_views(&self.gpu, &[*view]);
+    pub(crate) fn visibility(&mut self, shadows: &ShadowMap) -> Plane {
+        self.stage.set_views(&self.gpu, shadows.caster_views());
         let lookup = Lookup::new(&self.gpu, &self.stage, shadows);
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         let casters = Casters::new(&self.gpu, &self.stage, shadows).unwrap();
@@ -85,8 +85,8 @@ impl Shot {
 
     /// The same for a single technique.
     pub(crate) fn answer(&mut self, technique: &dyn Technique, size: u32, bias: Option<Bias>) -> Plane {
-        let (maps, view) = self.maps(&[technique], size, bias);
-        self.visibility(&maps[0], &view)
+        let (maps, _) = self.maps(&[technique], size, bias);
+        self.visibility(&maps[0])
     }
 
     pub(crate) fn hard_truth(&self) -> Visibility {

@@ -70,8 +70,8 @@ pub(super) fn caster(
     }
 }
 
-/// Whether the passes can read a caller's depth.
-pub(super) fn depth(depth: &wgpu::Texture) -> Result<(), Unsupported> {
+/// Whether the passes can read a caller's depth; how many views it holds, with that many layers each.
+pub(super) fn depth(depth: &wgpu::Texture, casts: u32) -> Result<u32, Unsupported> {
     let wrong =
         |what, found: String, needed: &str| Err(Unsupported::Depth { what, found, needed: needed.into() });
     let format = depth.format();
@@ -87,7 +87,11 @@ pub(super) fn depth(depth: &wgpu::Texture) -> Result<(), Unsupported> {
     if depth.sample_count() != 1 {
         return wrong("samples", depth.sample_count().to_string(), "1");
     }
-    Ok(())
+    let layers = depth.depth_or_array_layers();
+    if !layers.is_multiple_of(casts) {
+        return wrong("layers", layers.to_string(), &format!("a multiple of {casts}, one per caster pass"));
+    }
+    Ok(layers / casts)
 }
 
 #[cfg(test)]

@@ -9,7 +9,7 @@ use wgpu::{
     BindGroup, BindGroupLayout, BindingType, ComputePipeline, RenderPipeline, TextureFormat, TextureView,
 };
 
-type Key = (String, Vec<TextureFormat>);
+type Key = (String, Vec<TextureFormat>, wgpu::ColorWrites);
 
 /// The pipelines of the passes between casting and lighting, each compiled once. Clones share.
 #[derive(Debug, Clone)]
@@ -66,7 +66,7 @@ impl Pipelines {
     /// The pipeline of a step whose targets have these formats.
     pub(super) fn get(&self, step: &Step, formats: &[TextureFormat]) -> Pipeline {
         let mut made = self.made.lock().unwrap_or_else(PoisonError::into_inner);
-        made.entry((step.shader.clone(), formats.to_vec()))
+        made.entry((step.shader.clone(), formats.to_vec(), step.writes().0))
             .or_insert_with(|| self.compile(step, formats))
             .clone()
     }
@@ -79,7 +79,8 @@ impl Pipelines {
         compile: impl FnOnce(&wgpu::Device) -> RenderPipeline,
     ) -> RenderPipeline {
         let mut made = self.casters.lock().unwrap_or_else(PoisonError::into_inner);
-        made.entry((shader.to_string(), formats.to_vec())).or_insert_with(|| compile(&self.device)).clone()
+        let key = (shader.to_string(), formats.to_vec(), wgpu::ColorWrites::ALL);
+        made.entry(key).or_insert_with(|| compile(&self.device)).clone()
     }
 
     fn compile(&self, step: &Step, formats: &[TextureFormat]) -> Pipeline {
@@ -116,7 +117,9 @@ impl Pipelines {
         layout: &wgpu::PipelineLayout,
         formats: &[TextureFormat],
     ) -> RenderPipeline {
-        let targets: Vec<_> = formats.iter().map(|f| Some(wgpu::ColorTargetState::from(*f))).collect();
+        let (write_mask, _) = step.writes();
+        let target = |format: &TextureFormat| wgpu::ColorTargetState { write_mask, ..(*format).into() };
+        let targets: Vec<_> = formats.iter().map(|f| Some(target(f))).collect();
         self.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(step.label),
             layout: Some(layout),
@@ -156,7 +159,7 @@ impl Pipelines {
         let sampler = BindingType::Sampler(SamplerBindingType::NonFiltering);
         let floats = TextureSampleType::Float { filterable: false };
         let (source, uniform, sampler) = match (step.source.slot, step.work) {
-            (Slot::Casters, _) => {
+            (Slot::Casters | Slot::Cast(..), _) => {
                 (texture(TextureSampleType::Depth, Dimension::D2), Some(uniform), Some(sampler))
             }
             (_, Work::Draw) => (texture(floats, Dimension::D2Array), None, Some(sampler)),
@@ -193,7 +196,7 @@ impl Pipelines {
         use wgpu::{BindGroupEntry, BindingResource};
         let sampler = Some(BindingResource::Sampler(&self.nearest));
         let (uniforms, sampler) = match (step.source.slot, step.work) {
-            (Slot::Casters, _) => (Some(uniforms), sampler),
+            (Slot::Casters | Slot::Cast(..), _) => (Some(uniforms), sampler),
             (_, Work::Draw) => (None, sampler),
             (_, Work::Lanes(_)) => (None, None),
         };

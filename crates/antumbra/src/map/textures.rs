@@ -123,6 +123,11 @@ impl Textures {
         };
         match slot {
             Slot::Casters => one(&self.casters, view.min(self.casters.depth_or_array_layers() - 1), 0),
+            // All share one layer, unless the caller's depth has one for each.
+            Slot::Cast(cast, casts) => {
+                let last = self.casters.depth_or_array_layers() - 1;
+                one(&self.casters, (view * casts + cast).min(last), 0)
+            }
             Slot::Map(i) => array(&self.maps[i].texture, view * self.maps[i].layers + layer),
             Slot::Scratch(i) => array(self.maps[i].scratch(), layer),
         }
@@ -131,7 +136,7 @@ impl Textures {
     /// What a step writes, for one view.
     pub(super) fn targets(&self, step: &Step, view: u32) -> Vec<TextureView> {
         let target = |place: &Place| match place.slot {
-            Slot::Casters => self.caster_targets[view as usize].clone(),
+            Slot::Casters | Slot::Cast(..) => self.caster_targets[view as usize].clone(),
             Slot::Map(i) => one(&self.maps[i].texture, view * self.maps[i].layers + place.layer, place.mip),
             Slot::Scratch(i) => one(self.maps[i].scratch(), place.layer, 0),
         };
@@ -196,14 +201,15 @@ fn aspect(texture: &wgpu::Texture) -> TextureAspect {
     if texture.format().has_depth_aspect() { TextureAspect::DepthOnly } else { TextureAspect::All }
 }
 
-/// A colour attachment whose old content is not needed: every texel is written.
-pub(super) fn overwrite(view: &TextureView) -> wgpu::RenderPassColorAttachment<'_> {
+/// A colour attachment of which every texel is written. Its old content stays only in channels that
+/// are not, if `kept`.
+pub(super) fn written(view: &TextureView, kept: bool) -> wgpu::RenderPassColorAttachment<'_> {
     wgpu::RenderPassColorAttachment {
         view,
         depth_slice: None,
         resolve_target: None,
         ops: wgpu::Operations {
-            load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+            load: if kept { wgpu::LoadOp::Load } else { wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT) },
             store: wgpu::StoreOp::Store,
         },
     }

@@ -105,16 +105,24 @@ impl Uniforms {
     }
 }
 
-/// Size of the receivers' buffer: views, their count, five scalars, settings.
+/// Size of the receivers' buffer: views, their count, seven scalars, settings.
 pub(super) fn bytes(technique: &dyn Technique, views: u32) -> u64 {
-    let scalars = 4 * (6 + technique.uniforms().len() as u64);
+    let scalars = 4 * (8 + technique.uniforms().len() as u64);
     (u64::from(views) * VIEW_BYTES + scalars).next_multiple_of(16)
 }
 
 /// What follows `views` and `view_count`: size, bias, settings.
 fn scalars(technique: &dyn Technique, bias: Bias, size: Size) -> Vec<f32> {
     let (width, height) = (size.width as f32, size.height as f32);
-    let fixed = [width, height, bias.constant_texels, bias.slope_texels, bias.normal_offset_texels];
+    let fixed = [
+        width,
+        height,
+        bias.constant_texels,
+        bias.slope_texels,
+        bias.normal_offset_texels,
+        bias.receiver_plane,
+        bias.depth_steps * technique.depth_step(),
+    ];
     fixed.into_iter().chain(technique.uniforms().into_iter().map(|(_, value)| value)).collect()
 }
 

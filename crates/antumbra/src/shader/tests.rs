@@ -28,7 +28,16 @@ fn variants() -> Vec<Box<dyn Technique>> {
             settings.extend(["sampling=summed", "kernel=5,weights=box"]);
         }
         if names.contains(&"taps") {
-            settings.extend(["taps=nearest", "kernel=8,weights=box"]);
+            settings.extend(["taps=nearest", "taps=bilinear", "taps=merged", "kernel=8,weights=box"]);
+        }
+        if names.contains(&"precision") {
+            settings.push("precision=12");
+        }
+        if names.contains(&"grid") {
+            settings.push("grid=4");
+        }
+        if names.contains(&"spin") {
+            settings.extend(["spin=fixed", "points=64"]);
         }
         if names.contains(&"terms") {
             settings.extend(["terms=1", "terms=5", "storage=float32"]);
@@ -156,9 +165,9 @@ fn files_that_break_a_rule_are_found() {
 fn every_shared_file_validates_with_its_needs_and_nothing_else() {
     for (stem, _) in FILES {
         for parts in [
-            ["level_hardware", "words_1", "points_map"],
-            ["level_manual", "words_2", "points_texel"],
-            ["level_logarithmic", "words_4", "points_map"],
+            ["level_hardware", "words_1", "reference_exact", "points_map"],
+            ["level_manual", "words_2", "reference_stepped", "points_texel"],
+            ["level_logarithmic", "words_4", "reference_exact", "points_map"],
         ] {
             let text = ShaderText::file(stem, &parts).text();
             let module = validate(&text).unwrap_or_else(|e| panic!("{stem}: {e}"));

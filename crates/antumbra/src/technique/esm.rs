@@ -74,9 +74,9 @@ pub struct Esm {
     pub classifier: Classifier,
     /// ε: by how much the product may exceed one before a pixel counts as failing.
     pub epsilon: f32,
-    /// For Z-Max: how many texels of the receiver's own slope, in x and in y, a caster may lie behind
-    /// it before the pixel counts as failing, beside what ε allows.
-    pub offset_texels: f32,
+    /// For Z-Max: how far a caster may lie behind the receiver before the pixel counts as failing, times
+    /// what the receiver's own plane gains across the kernel, beside what ε allows. 1 spares lit planes.
+    pub offset: f32,
     /// What is done with failing pixels.
     pub custom: Custom,
     /// Blur, mips and sampling.
@@ -90,7 +90,7 @@ impl Default for Esm {
             storage: Storage::Powers,
             classifier: Classifier::None,
             epsilon: 0.1,
-            offset_texels: 1.0,
+            offset: 1.0,
             custom: Custom::Four,
             filter: Filter::default(),
         }
@@ -192,10 +192,10 @@ impl Technique for Esm {
                 "a result above 1 + ε fails",
             ),
             Parameter::new(
-                "offset_texels",
-                "texels",
-                Field::Number(&mut self.offset_texels, 0.0..=64.0),
-                "so many texels of its own slope behind the receiver do not fail; only with classifier=zmax",
+                "offset",
+                "own slope",
+                Field::Number(&mut self.offset, 0.0..=8.0),
+                "casters behind by so many times the slope across the kernel do not fail; only with classifier=zmax",
             ),
             Parameter::new("custom", "", Field::Choice(&mut self.custom), "how failing pixels are filtered"),
         ];
@@ -237,9 +237,13 @@ impl Technique for Esm {
         }
     }
     fn uniforms(&self) -> Vec<Uniform> {
-        // Blurring widens the map of farthest depths by half a kernel, interpolation by a texel.
-        let offset = self.offset_texels * self.filter.reach_texels();
-        vec![("c", self.steepness()), ("epsilon", self.epsilon), ("offset", offset)]
+        let half_kernel = 0.5 * (self.filter.kernel as f32 - 1.0);
+        vec![
+            ("c", self.steepness()),
+            ("epsilon", self.epsilon),
+            ("offset", self.offset),
+            ("half_kernel", half_kernel),
+        ]
     }
     fn constants(&self) -> Vec<Constant> {
         let own = Constant::Count("esm_logarithms", u32::from(self.is_logarithmic()));

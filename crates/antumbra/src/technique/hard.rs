@@ -1,25 +1,30 @@
 //! The standard shadow map: one nearest texel, one comparison.
 //!
 //! Keeps the casters' depth. Aliased at every edge, blocky under magnification, and every point of
-//! a tilted surface needs bias against its own texel. The yardstick of time and memory for the
-//! rest.
+//! a tilted surface needs bias against its own texel: by default the receiver's plane at the texel's
+//! centre. The yardstick of time and memory for the rest.
 //!
 //! Williams 1978, "Casting curved shadows on curved surfaces".
 
-use super::{Bias, Binding, DepthSpace, Family, Map, Page, Technique};
-use crate::{capabilities::Capabilities, error::Unsupported, parameter::Parameter};
+use super::{Bias, Binding, Constant, DepthSpace, Family, Map, Page, Technique};
+use crate::{
+    capabilities::Capabilities, error::Unsupported, parameter::Parameter, precision::Precision,
+};
 
 /// The standard shadow map. 1 comparison; 4 bytes per texel (32-bit depth).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Hard;
+pub struct Hard {
+    /// How exactly depth is stored.
+    pub precision: Precision,
+}
 
 impl Technique for Hard {
     fn page(&self) -> Page {
         Page { name: "hard", title: "Standard shadow map", family: Family::Comparison, paper: "Williams 1978" }
     }
     fn parameters(&mut self) -> Vec<Parameter<'_>> {
-        Vec::new()
+        vec![self.precision.parameter()]
     }
     fn maps(&self, _: &Capabilities) -> Result<Vec<Map>, Unsupported> {
         Ok(Vec::new())
@@ -30,8 +35,17 @@ impl Technique for Hard {
     fn wgsl(&self) -> &'static str {
         include_str!("hard.wgsl")
     }
+    fn constants(&self) -> Vec<Constant> {
+        self.precision.constants()
+    }
+    fn parts(&self, _: &Capabilities) -> Vec<&'static str> {
+        vec![self.precision.part()]
+    }
     fn bias(&self) -> Bias {
-        Bias { constant_texels: 0.1, slope_texels: 0.55, normal_offset_texels: 0.1 }
+        Bias::COMPARISON
+    }
+    fn depth_step(&self) -> f32 {
+        self.precision.step()
     }
     fn depth_space(&self) -> DepthSpace {
         DepthSpace::Raster

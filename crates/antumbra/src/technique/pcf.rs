@@ -1,8 +1,17 @@
 //! Percentage-closer filtering on a grid: compare first, average the answers.
 //!
 //! n×n comparisons around the receiver's place in the map, with box or Gaussian weights, each
-//! nearest (k/n² grey levels) or interpolated by the comparison sampler (continuous). The quality
-//! that pre-filtered techniques are measured by; the cost grows with n².
+//! nearest (k/n² grey levels) or bilinear (continuous, over (n+1)² texels). The quality that
+//! pre-filtered techniques are measured by; the cost grows with n².
+//!
+//! # Fewer lookups
+//! n bilinear taps, a texel apart, with weights w₀ … wₙ₋₁ and the fraction f between two texels, give
+//! texel j along each axis the weight tⱼ = wⱼ(1 − f) + wⱼ₋₁ f. One bilinear lookup between texels j and
+//! j + 1, at the fraction tⱼ₊₁/(tⱼ + tⱼ₊₁), weighted by tⱼ + tⱼ₊₁, gives both their weights; weights of
+//! rows and columns multiply, in the lookup as in the kernel. So ⌈(n+1)/2⌉² lookups make the whole n×n
+//! kernel, whatever its weights, without approximation: 4 for 3×3, 9 for 5×5, 16 for 7×7
+//! ([`Taps::Merged`]). A gather fetches the same four comparisons for weights in the shader
+//! ([`Taps::Gather`]).
 //!
 //! Reeves, Salesin, Cook 1987, "Rendering antialiased shadows with depth maps".
 
@@ -12,19 +21,26 @@ use crate::{
     error::Unsupported,
     kernel::{Kernel, Weights},
     parameter::{Field, Parameter, choice},
+    precision::Precision,
 };
 
 choice! {
-    /// What one tap of a comparison kernel is.
+    /// How the comparisons of a grid are fetched.
     Taps {
-        /// The nearest texel: 0 or 1.
+        /// n² texels: 0 or 1 each.
         Nearest = "nearest",
-        /// Four comparisons with bilinear weights, in one hardware lookup.
+        /// n² lookups of four comparisons with bilinear weights.
         Bilinear = "bilinear",
+        /// The same sum in ⌈(n+1)/2⌉² lookups between the texels.
+        Merged = "merged",
+        /// The same sum from ⌈(n+1)/2⌉² gathers, weighted in the shader: exact where samplers round
+        /// their weights to 8 bits.
+        Gather = "gather",
     }
 }
 
-/// Percentage-closer filtering. n² lookups; 4 bytes per texel (32-bit depth).
+/// Percentage-closer filtering. ⌈(n+1)/2⌉² lookups, n² if nearest or one by one; 4 bytes per texel
+/// (32-bit depth).
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Pcf {
@@ -34,13 +50,42 @@ pub struct Pcf {
     pub weights: Weights,
     /// Standard deviation of the Gaussian in texels, 0 for [`Kernel::usual_sigma`].
     pub sigma: f32,
-    /// Nearest or bilinear comparisons.
+    /// Nearest or bilinear comparisons, and how they are fetched. One bilinear tap is the 2×2 comparison
+    /// of a linear sampler.
     pub taps: Taps,
+    /// How exactly depth is stored.
+    pub precision: Precision,
 }
 
 impl Default for Pcf {
     fn default() -> Self {
-        Self { kernel: 3, weights: Weights::Gaussian, sigma: 0.0, taps: Taps::Bilinear }
+        Self {
+            kernel: 3,
+            weights: Weights::Gaussian,
+            sigma: 0.0,
+            taps: Taps::Gather,
+            precision: Precision::Float32,
+        }
+    }
+}
+
+impl Pcf {
+    /// Peak and fall-off of the weights 2^−(fall-off · x²) at x texels from the middle, which sum to one
+    /// as those of [`Kernel::new`] do.
+    fn bell(&self) -> [f32; 2] {
+        let sigma = match self.sigma {
+            s if s > 0.0 => f64::from(s),
+            _ => Kernel::usual_sigma(self.kernel),
+        };
+        let falloff = match self.weights {
+            Weights::Box => 0.0,
+            // Beyond that all neighbours weigh nothing.
+            Weights::Gaussian => (std::f64::consts::LOG2_E / (2.0 * sigma * sigma)).min(1e4),
+        };
+        let middle = (f64::from(self.kernel) - 1.0) / 2.0;
+        let sum: f64 =
+            (0..self.kernel).map(|i| (-falloff * (f64::from(i) - middle).powi(2)).exp2()).sum();
+        [(1.0 / sum) as f32, falloff as f32]
     }
 }
 
@@ -63,7 +108,13 @@ impl Technique for Pcf {
                 Field::Number(&mut self.sigma, 0.0..=31.0),
                 "standard deviation of the Gaussian; 0 is 0.15·kernel + 0.35",
             ),
-            Parameter::new("taps", "", Field::Choice(&mut self.taps), "one texel, or 2×2 with bilinear weights, per tap"),
+            Parameter::new(
+                "taps",
+                "",
+                Field::Choice(&mut self.taps),
+                "one texel per tap, or 2×2 with bilinear weights: one by one, merged, or gathered (the same sum)",
+            ),
+            self.precision.parameter(),
         ]
     }
     fn maps(&self, _: &Capabilities) -> Result<Vec<Map>, Unsupported> {
@@ -71,8 +122,8 @@ impl Technique for Pcf {
     }
     fn bindings(&self) -> Vec<Binding> {
         let filter = match self.taps {
-            Taps::Nearest => wgpu::FilterMode::Nearest,
-            Taps::Bilinear => wgpu::FilterMode::Linear,
+            Taps::Nearest | Taps::Gather => wgpu::FilterMode::Nearest,
+            Taps::Bilinear | Taps::Merged => wgpu::FilterMode::Linear,
         };
         vec![Binding::Depth, Binding::Compare(filter)]
     }
@@ -80,26 +131,41 @@ impl Technique for Pcf {
         include_str!("pcf.wgsl")
     }
     fn constants(&self) -> Vec<Constant> {
-        let kernel = Kernel::new(self.weights, self.kernel, self.sigma);
-        vec![Constant::Array("pcf_weights", kernel.taps), Constant::Count("pcf_width", self.kernel)]
+        let bell = self.bell().to_vec();
+        let mut constants =
+            vec![Constant::Array("taps_bell", bell), Constant::Count("taps_width", self.kernel)];
+        constants.extend(self.precision.constants());
+        constants
     }
-    /// The taps follow the receiver's plane, so the slope term covers one tap only: half a texel
-    /// nearest, one texel bilinear.
-    fn bias(&self) -> Bias {
-        let slope_texels = match self.taps {
-            Taps::Nearest => 0.55,
-            Taps::Bilinear => 1.05,
+    fn parts(&self, _: &Capabilities) -> Vec<&'static str> {
+        let taps = match self.taps {
+            Taps::Nearest => "taps_nearest",
+            Taps::Bilinear => "taps_bilinear",
+            Taps::Merged => "taps_merged",
+            Taps::Gather => "taps_gather",
         };
-        Bias { constant_texels: 0.1, slope_texels, normal_offset_texels: 0.1 }
+        vec![taps, self.precision.part()]
+    }
+    fn bias(&self) -> Bias {
+        Bias::COMPARISON
+    }
+    fn depth_step(&self) -> f32 {
+        self.precision.step()
     }
     fn depth_space(&self) -> DepthSpace {
         DepthSpace::Raster
     }
     fn reach_texels(&self) -> f32 {
-        self.kernel as f32 / 2.0 + 0.5
+        match self.taps {
+            Taps::Nearest => self.kernel as f32 / 2.0,
+            Taps::Bilinear | Taps::Merged | Taps::Gather => self.kernel as f32 / 2.0 + 0.5,
+        }
     }
     fn lookups(&self) -> u32 {
-        self.kernel * self.kernel
+        match self.taps {
+            Taps::Nearest | Taps::Bilinear => self.kernel.pow(2),
+            Taps::Merged | Taps::Gather => (self.kernel + 1).div_ceil(2).pow(2),
+        }
     }
     fn boxed(&self) -> Box<dyn Technique> {
         Box::new(*self)

@@ -131,7 +131,7 @@ impl Technique for Spsm {
         self.packing.parts()
     }
     fn bias(&self) -> Bias {
-        Bias { constant_texels: 0.05, slope_texels: 0.05, normal_offset_texels: 0.0 }
+        Bias { constant_texels: 0.05, slope_texels: 0.05, ..Bias::NONE }
     }
     fn depth_space(&self) -> DepthSpace {
         DepthSpace::Raster

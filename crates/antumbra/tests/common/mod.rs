@@ -76,8 +76,8 @@ pub fn depth_layers(
     };
     use wgpu::TextureUsages as Usage;
     let source = texture(wgpu::TextureFormat::R32Float, Usage::TEXTURE_BINDING | Usage::COPY_DST);
-    let usage = Usage::TEXTURE_BINDING | Usage::RENDER_ATTACHMENT | Usage::COPY_SRC;
-    let target = texture(antumbra::DEPTH_FORMAT, usage);
+    let target =
+        texture(antumbra::DEPTH_FORMAT, Usage::TEXTURE_BINDING | Usage::RENDER_ATTACHMENT | Usage::COPY_SRC);
     gpu.queue.write_texture(
         source.as_image_copy(),
         bytes_of(&texels),
@@ -198,6 +198,34 @@ fn texels_of(depth: &wgpu::Texture) -> Size {
     Size { width: depth.width(), height: depth.height() }
 }
 
+/// Depth with every layer `times` times in a row.
+fn repeat_layers(gpu: &Gpu, depth: &wgpu::Texture, times: u32) -> wgpu::Texture {
+    let layers = depth.depth_or_array_layers();
+    let one = wgpu::Extent3d { depth_or_array_layers: 1, ..depth.size() };
+    let repeated = gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("test depth"),
+        size: wgpu::Extent3d { depth_or_array_layers: layers * times, ..one },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: depth.format(),
+        usage: depth.usage() | wgpu::TextureUsages::COPY_DST,
+        view_formats: &[],
+    });
+    let at = |texture, z| wgpu::TexelCopyTextureInfo {
+        texture,
+        mip_level: 0,
+        origin: wgpu::Origin3d { x: 0, y: 0, z },
+        aspect: wgpu::TextureAspect::All,
+    };
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    for layer in 0..layers * times {
+        encoder.copy_texture_to_texture(at(depth, layer / times), at(&repeated, layer), one);
+    }
+    gpu.queue.submit([encoder.finish()]);
+    repeated
+}
+
 /// The same with those views, one per layer of the depth.
 pub fn shadow_map_of(
     gpu: &Gpu,
@@ -210,7 +238,11 @@ pub fn shadow_map_of(
     if technique.caster() != Caster::Depth {
         return triangle_map(gpu, technique, depth, options, views);
     }
-    let mut shadows = ShadowMap::from_depth(&gpu.device, technique, depth, options).unwrap();
+    // Depth that was made for one caster pass serves all of them.
+    let casts = technique.jitter().len() as u32;
+    let repeated = depth.depth_or_array_layers() == views.len() as u32 && casts > 1;
+    let depth = if repeated { repeat_layers(gpu, depth, casts) } else { depth.clone() };
+    let mut shadows = ShadowMap::from_depth(&gpu.device, technique, &depth, options).unwrap();
     shadows.prepare(&gpu.queue, views).unwrap();
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     shadows.encode_filter(&mut encoder, &mut NoProbe);
@@ -218,7 +250,7 @@ pub fn shadow_map_of(
     shadows
 }
 
-/// The same for techniques whose casters are triangles: a square of two for every texel of that depth
+/// The same for techniques whose casters are triangles: a square of three for every texel of that depth
 /// that is not empty, so little smaller than the texel that it touches no other.
 fn triangle_map(
     gpu: &Gpu,
@@ -244,8 +276,10 @@ fn triangle_map(
                     world_from_clip.project_point3(Vec3::new(2.0 * u - 1.0, 1.0 - 2.0 * v, z))
                 };
                 let [a, b, c, d] = [at(0.0, 0.0), at(1.0, 0.0), at(0.0, 1.0), at(1.0, 1.0)];
+                // Around a point of the upper side, so that no edge crosses the centre.
+                let m = at(0.4, 0.0);
                 if z < 1.0 {
-                    corners.extend([a, b, c, c, b, d]);
+                    corners.extend([m, c, d, m, d, b, m, a, c]);
                 }
             }
             caster_mesh(gpu, &corners)

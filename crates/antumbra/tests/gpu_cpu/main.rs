@@ -11,6 +11,7 @@ mod comparison;
 mod geometry;
 mod lookups;
 mod receiver;
+mod stored;
 
 use antumbra::{Capabilities, Size, Technique, technique, technique::Encode};
 use antumbra_testing::{Gpu, Trials};
@@ -23,7 +24,7 @@ const INPUTS: usize = 16;
 type Row = [f32; INPUTS];
 
 /// Encode functions that a trial below compares.
-const ENCODE_FUNCTIONS: [&str; 9] = [
+const ENCODE_FUNCTIONS: [&str; 11] = [
     "vsm_encode",
     "vsm_encode_sloped",
     "csm_encode",
@@ -32,6 +33,8 @@ const ENCODE_FUNCTIONS: [&str; 9] = [
     "evsm_encode",
     "msm_encode",
     "lvsm_encode",
+    "packed_encode",
+    "stratified_encode",
     "packing_texel",
 ];
 
@@ -153,6 +156,15 @@ fn main() {
     trials.add("receivers are projected", receiver::receivers_are_projected);
     trials.add("receiver planes are solved", receiver::receiver_planes_are_solved);
     trials.add("pcf is a weighted sum", comparison::pcf_is_a_weighted_sum);
+    trials.add("taps agree", comparison::taps_agree);
+    trials.add("merged taps follow the plane", comparison::merged_taps_follow_the_plane);
+    trials.add("bicubic is a convolution", comparison::bicubic_is_a_convolution);
+    trials.add("poisson is the mean of its disk", comparison::poisson_is_the_mean_of_its_disk);
+    trials.add("footprint is the mean of its pixel", comparison::footprint_is_the_mean_of_its_pixel);
+    trials.add("packed encodes", stored::packed_encodes);
+    trials.add("packed is the mean around a corner", stored::packed_is_the_mean_around_a_corner);
+    trials.add("stratified is the mean of its samples", stored::stratified_is_the_mean_of_its_samples);
+    trials.add("precision rounds the map", stored::precision_rounds_the_map);
     trials.add("lookups interpolate", lookups::lookups_interpolate);
     trials.add("logarithms are interpolated as powers", lookups::logarithms_interpolate_as_powers);
     trials.add("words add up", lookups::words_add_up);

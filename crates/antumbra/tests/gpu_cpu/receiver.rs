@@ -7,7 +7,7 @@ use glam::{DMat4, DVec3, Vec3};
 
 /// A depth z is rounded by 6e-8, which the curve of a perspective depth magnifies by 1/(1 − (1 − r)z).
 pub(crate) fn raster_depth_is_linearised(gpu: &Gpu) {
-    let shadows = shadows(gpu, &technique::Hard, 1);
+    let shadows = shadows(gpu, &technique::Hard::default(), 1);
     // r = near/far; z projected depth; l linear depth.
     let rows = rows(6, |r| row([r.unit(), 10f32.powf(r.range(-3.0, 0.0)), r.unit()]));
     let body = "
@@ -39,7 +39,7 @@ pub(crate) fn raster_depth_is_linearised(gpu: &Gpu) {
 
 /// Not a number, infinities and depths out of range become the far plane; the rest stays, exactly.
 pub(crate) fn raster_depth_is_cleaned(gpu: &Gpu) {
-    let shadows = shadows(gpu, &technique::Hard, 1);
+    let shadows = shadows(gpu, &technique::Hard::default(), 1);
     let odd = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -1e-6, -3.0, 1.000_001, 7.0];
     let good = [0.0, 1.0, 0.5, 1e-30, 0.999_999];
     let rows: Vec<Row> = odd.iter().chain(&good).map(|z| row([*z])).collect();
@@ -50,7 +50,7 @@ pub(crate) fn raster_depth_is_cleaned(gpu: &Gpu) {
 
 /// Positions up to 4, distances of 8 to 16: a few roundings, none magnified.
 pub(crate) fn receivers_are_projected(gpu: &Gpu) {
-    let shadows = shadows(gpu, &technique::Hard, 1);
+    let shadows = shadows(gpu, &technique::Hard::default(), 1);
     let bounds = antumbra::Bounds { min: Vec3::splat(-4.0), max: Vec3::splat(4.0) };
     let spot = Light::Spot {
         position: Vec3::new(1.0, 12.0, 2.0),
@@ -118,7 +118,7 @@ pub(crate) fn receivers_are_projected(gpu: &Gpu) {
 /// but its components stay finite and within the bound.
 pub(crate) fn receiver_planes_are_solved(gpu: &Gpu) {
     const STEEPEST: f32 = 20.0;
-    let shadows = shadows(gpu, &technique::Hard, 1);
+    let shadows = shadows(gpu, &technique::Hard::default(), 1);
     let mut rows = rows(8, |r| {
         let mut values = row([0.0; 1]);
         values[..6].fill_with(|| r.range(-1.0, 1.0));

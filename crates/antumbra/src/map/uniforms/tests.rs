@@ -89,7 +89,13 @@ fn written(technique: &dyn Technique, bias: Bias, size: Size, views: &[View], ro
 
 #[test]
 fn what_is_written_lies_where_the_shader_reads_it() {
-    let bias = Bias { constant_texels: 1.5, slope_texels: 2.5, normal_offset_texels: 3.5 };
+    let bias = Bias {
+        constant_texels: 1.5,
+        slope_texels: 2.5,
+        normal_offset_texels: 3.5,
+        receiver_plane: 0.75,
+        depth_steps: 4.5,
+    };
     let view = View {
         clip_from_world: glam::Mat4::from_cols_array(&std::array::from_fn(|i| i as f32)),
         depth_plane: glam::Vec4::new(20.0, 21.0, 22.0, 23.0),
@@ -98,7 +104,9 @@ fn what_is_written_lies_where_the_shader_reads_it() {
         near_over_far: 29.0,
         depth_world: 30.0,
     };
-    for technique in ["hard", "pcf", "vsm.least_variance=0.001,slope=3", "csm.offset=0.2", "esm.c=33"] {
+    for technique in
+        ["hard", "pcf.precision=8", "vsm.least_variance=0.001,slope=3", "csm.offset=0.2", "esm.c=33"]
+    {
         let technique = parse(technique).unwrap();
         let module = parse_str(&shader::receiver(technique.as_ref(), &device(), 3, 0).text()).unwrap();
         let (members, span) = layout(&module, "ShadowUniforms");
@@ -112,6 +120,8 @@ fn what_is_written_lies_where_the_shader_reads_it() {
             ("constant_texels".into(), 1.5),
             ("slope_texels".into(), 2.5),
             ("normal_offset_texels".into(), 3.5),
+            ("receiver_plane".into(), 0.75),
+            ("constant_depth".into(), 4.5 * technique.depth_step()),
         ];
         expected.extend(technique.uniforms().into_iter().map(|(n, v)| (format!("setting_{n}"), v)));
         assert_eq!(members[0].0, "views");

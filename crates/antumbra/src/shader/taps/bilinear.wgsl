@@ -1,0 +1,21 @@
+//! needs reference taps_weights
+
+/// n×n bilinear lookups one texel apart, weighted. Each compares its 2×2 texels with one depth, that
+/// of the receiver's plane over the highest of them.
+fn taps_lit(casters: texture_depth_2d_array, compare: sampler_comparison, uv: vec2f, view: u32, depth: f32, plane: vec2f) -> f32 {
+    let texel = 1.0 / vec2f(textureDimensions(casters));
+    let first = uv / texel - 0.5 * f32(taps_width - 1u);
+    // Where the four texels of the first tap meet, and the gain to the highest of them.
+    let corner = (floor(first - 0.5) + 1.0) * texel;
+    let gain = dot(plane, corner - uv) - 0.5 * dot(abs(plane), texel);
+    var lit = 0.0;
+    for (var row = 0u; row < taps_width; row += 1u) {
+        for (var column = 0u; column < taps_width; column += 1u) {
+            let step = vec2f(f32(column), f32(row)) * texel;
+            let reference = reference_depth(depth, gain + dot(plane, step));
+            let tap = textureSampleCompareLevel(casters, compare, first * texel + step, view, reference);
+            lit += taps_weight(f32(row)) * taps_weight(f32(column)) * tap;
+        }
+    }
+    return lit;
+}

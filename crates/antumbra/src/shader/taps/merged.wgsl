@@ -1,0 +1,27 @@
+//! needs reference taps_weights
+
+/// The sum of n×n bilinear taps in ⌈(n+1)/2⌉² bilinear lookups. The taps cover n + 1 texels along each
+/// axis; a lookup between two of them, at the fraction b/(a + b) and with the weight a + b, gives the
+/// first the weight a and the second b. Weights of both axes multiply, in a lookup as in the kernel.
+fn taps_lit(casters: texture_depth_2d_array, compare: sampler_comparison, uv: vec2f, view: u32, depth: f32, plane: vec2f) -> f32 {
+    let texel = 1.0 / vec2f(textureDimensions(casters));
+    let first = uv / texel - 0.5 * f32(taps_width);
+    let low = floor(first);
+    let fraction = first - low;
+    // From the receiver to where the first four texels meet, and the gain to the highest of them.
+    let gain = dot(plane, (low + 1.0) * texel - uv) - 0.5 * dot(abs(plane), texel);
+    var lit = 0.0;
+    for (var j = 0.0; j <= f32(taps_width); j += 2.0) {
+        let y = taps_pair(j, fraction.y);
+        let down = y.x + y.y;
+        let place_y = (low.y + 0.5 + j + y.y / max(down, 1e-30)) * texel.y;
+        for (var i = 0.0; i <= f32(taps_width); i += 2.0) {
+            let x = taps_pair(i, fraction.x);
+            let across = x.x + x.y;
+            let place_x = (low.x + 0.5 + i + x.y / max(across, 1e-30)) * texel.x;
+            let reference = reference_depth(depth, gain + dot(plane, vec2f(i, j) * texel));
+            lit += across * down * textureSampleCompareLevel(casters, compare, vec2f(place_x, place_y), view, reference);
+        }
+    }
+    return lit;
+}

@@ -1,0 +1,140 @@
+//! Fast percentage-closer filtering: four neighbouring depths packed into the channels of one texel.
+//!
+//! A pass over the map gathers every 2×2 texels into one RGBA texel, so that a single fetch brings all
+//! the depths of a 2×2 footprint and four fetches those of a 4×4 one. One caster pass and the full
+//! resolution of the map, but a footprint of whole texels: 5 or 17 levels of grey, in steps as wide as
+//! a texel.
+//!
+//! # Packing
+//! The paper's 3×3 colour convolution takes red from the lower left, green from below, blue from the left
+//! and alpha from the texel itself. The four surround the texel's lower left corner and not its centre,
+//! so the lookup is shifted by half a texel (figure 6) to find the corner nearest to the receiver.
+//! Four phases, two texels apart, make 4×4. The paper packs a map of its own for every phase; here they
+//! share one.
+//!
+//! # Levels
+//! Hardware of 2001 added the phases up in 8 bits: a shadowed phase leaves 63 of 255 instead of 64, so
+//! that equal numbers of shadowed texels no longer give equal greys. The paper counts 4 · 5 = 20 levels;
+//! all in all 35 can occur ([`Accumulation::Bytes`]).
+//!
+//! Brabec & Seidel 2001, "Hardware-accelerated rendering of antialiased shadows with shadow maps", §4.
+
+use super::{Bias, Binding, Constant, Encode, Family, Map, Page, Technique};
+use crate::{
+    capabilities::Capabilities,
+    error::Unsupported,
+    parameter::{Field, Parameter, choice},
+    precision::Precision,
+};
+
+choice! {
+    /// Texels along one side of the footprint.
+    Grid {
+        /// One fetch, 5 levels.
+        Two = "2",
+        /// Four fetches, 17 levels.
+        Four = "4",
+    }
+}
+
+choice! {
+    /// How the phases of a footprint are added up.
+    Accumulation {
+        /// In floats.
+        Exact = "exact",
+        /// In 8 bits, cut to whole numbers.
+        Bytes = "bytes",
+    }
+}
+
+/// Packed percentage-closer filtering. 1 or 4 fetches; 16 bytes per texel, 8 at 12 or 16 bits, 4 at 8.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Packed {
+    /// Texels along one side of the footprint.
+    pub grid: Grid,
+    /// How the phases are added up.
+    pub accumulation: Accumulation,
+    /// How exactly depth is stored.
+    pub precision: Precision,
+}
+
+impl Default for Packed {
+    fn default() -> Self {
+        Self { grid: Grid::Two, accumulation: Accumulation::Exact, precision: Precision::Float32 }
+    }
+}
+
+impl Technique for Packed {
+    fn page(&self) -> Page {
+        Page {
+            name: "packed",
+            title: "Packed percentage-closer filtering",
+            family: Family::Comparison,
+            paper: "Brabec & Seidel 2001",
+        }
+    }
+    fn parameters(&mut self) -> Vec<Parameter<'_>> {
+        vec![
+            Parameter::new("grid", "texels", Field::Choice(&mut self.grid), "side of the footprint"),
+            Parameter::new(
+                "accumulation",
+                "",
+                Field::Choice(&mut self.accumulation),
+                "how the four fetches of a 4×4 footprint are added up",
+            ),
+            self.precision.parameter(),
+        ]
+    }
+    fn maps(&self, device: &Capabilities) -> Result<Vec<Map>, Unsupported> {
+        Ok(vec![Map {
+            name: "packed depth",
+            format: self.precision.rgba(device),
+            layers: 1,
+            encode: Encode::Neighbours("packed_encode"),
+            passes: Vec::new(),
+        }])
+    }
+    fn fallbacks(&self, device: &Capabilities) -> Vec<String> {
+        self.precision.fallbacks(device)
+    }
+    fn bindings(&self) -> Vec<Binding> {
+        vec![Binding::Map(0)]
+    }
+    fn wgsl(&self) -> &'static str {
+        include_str!("packed.wgsl")
+    }
+    fn constants(&self) -> Vec<Constant> {
+        let phases = match self.grid {
+            Grid::Two => 1,
+            Grid::Four => 2,
+        };
+        let bytes = u32::from(self.accumulation == Accumulation::Bytes);
+        let own = [Constant::Count("packed_phases", phases), Constant::Count("packed_in_bytes", bytes)];
+        own.into_iter().chain(self.precision.constants()).collect()
+    }
+    fn parts(&self, _: &Capabilities) -> Vec<&'static str> {
+        vec![self.precision.part()]
+    }
+    fn bias(&self) -> Bias {
+        Bias::COMPARISON
+    }
+    fn depth_step(&self) -> f32 {
+        self.precision.step()
+    }
+    fn reach_texels(&self) -> f32 {
+        match self.grid {
+            Grid::Two => 1.0,
+            Grid::Four => 2.0,
+        }
+    }
+    fn lookups(&self) -> u32 {
+        match self.grid {
+            Grid::Two => 1,
+            Grid::Four => 4,
+        }
+    }
+    fn boxed(&self) -> Box<dyn Technique> {
+        Box::new(*self)
+    }
+}

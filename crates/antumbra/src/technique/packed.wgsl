@@ -1,0 +1,50 @@
+//! needs reference
+
+/// Phases along one side: one for a footprint of 2×2 texels, two for one of 4×4.
+const packed_phases: u32 = 1;
+/// 1 to add phases up in 8 bits, as the paper's hardware did.
+const packed_in_bytes: u32 = 0;
+
+/// The 3×3 colour convolution of Brabec & Seidel 2001, §4: red from the lower left neighbour, green from
+/// the lower middle, blue from the left, alpha from the texel itself. y points down, so lower is + 1.
+fn packed_encode(depths: mat3x3f, layer: u32) -> vec4f {
+    return vec4f(depths[0][2], depths[1][2], depths[0][1], depths[1][1]);
+}
+
+/// Share of four depths that the receiver is behind. `gain` is the depth that its plane gains to the
+/// middle of the four, `half_texel` what it gains over half a texel in x and in y.
+fn packed_shadow(four: vec4f, depth: f32, gain: f32, half_texel: vec2f) -> f32 {
+    // Lower left, lower right, upper left, upper right.
+    let gains = gain + half_texel.x * vec4f(-1.0, 1.0, -1.0, 1.0) + half_texel.y * vec4f(1.0, 1.0, -1.0, -1.0);
+    let references = vec4f(
+        reference_depth(depth, gains.x), reference_depth(depth, gains.y),
+        reference_depth(depth, gains.z), reference_depth(depth, gains.w),
+    );
+    return dot(select(vec4f(0.25), vec4f(0.0), references <= four), vec4f(1.0));
+}
+
+/// What a phase leaves in an accumulation buffer of 8 bits: a quarter of 64 per shadowed texel, of 255
+/// where all four are, cut to whole numbers; as a share of what is left of a full shadow.
+fn packed_bytes(shadow: f32) -> f32 {
+    return floor(min(256.0 * shadow, 255.0) / 4.0) / 63.0;
+}
+
+/// Mean of comparisons with the 2×2 or 4×4 texels around the corner that is nearest to uv: one fetch of
+/// four depths per phase. A texel's four surround its lower left corner, half a texel away, so the
+/// lookup is half a texel up and right [figure 6].
+fn packed_visibility(packed: texture_2d_array<f32>, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f) -> f32 {
+    let size = textureDimensions(packed);
+    let texel = 1.0 / vec2f(size);
+    let middle = floor(uv / texel + vec2f(0.5, -0.5));
+    var sum = 0.0;
+    for (var row = 0u; row < packed_phases; row += 1u) {
+        for (var column = 0u; column < packed_phases; column += 1u) {
+            let phase = middle + 2.0 * vec2f(f32(column), f32(row)) - f32(packed_phases - 1u);
+            let four = textureLoad(packed, clamp(vec2i(phase), vec2i(0), vec2i(size) - 1), view, 0);
+            let gain = dot(plane, (phase + vec2f(0.0, 1.0)) * texel - uv);
+            let shadow = packed_shadow(four, depth, gain, 0.5 * plane * texel);
+            sum += select(shadow, packed_bytes(shadow), packed_in_bytes == 1u);
+        }
+    }
+    return 1.0 - sum / f32(packed_phases * packed_phases);
+}

@@ -1,0 +1,32 @@
+//! needs reference
+
+/// Samples along one side of a texel.
+const stratified_grid: u32 = 2;
+
+/// The depth of one caster pass, which goes to one channel.
+fn stratified_encode(depth: f32, layer: u32) -> vec4f {
+    return vec4f(depth);
+}
+
+/// Share of the n×n depths in the texel of uv that the receiver is not behind, each compared where it
+/// was sampled: sample k lies in column k mod n and row k / n of the texel. One fetch per four samples.
+fn stratified_visibility(samples: texture_2d_array<f32>, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f) -> f32 {
+    const COUNT = stratified_grid * stratified_grid;
+    const LAYERS = (COUNT + 3u) / 4u;
+    let size = textureDimensions(samples);
+    let texel = clamp(vec2i(floor(uv * vec2f(size))), vec2i(0), vec2i(size) - 1);
+    let n = f32(stratified_grid);
+    // Of the first sample, and of a step to the next.
+    let step = plane / (n * vec2f(size));
+    let gain = dot(plane, vec2f(texel) / vec2f(size) - uv) + 0.5 * (step.x + step.y);
+    var lit = 0.0;
+    for (var layer = 0u; layer < LAYERS; layer += 1u) {
+        let four = textureLoad(samples, texel, view * LAYERS + layer, 0);
+        for (var channel = 0u; channel < 4u; channel += 1u) {
+            let k = 4u * layer + channel;
+            let here = gain + f32(k % stratified_grid) * step.x + f32(k / stratified_grid) * step.y;
+            lit += select(0.0, 1.0, k < COUNT && reference_depth(depth, here) <= four[channel]);
+        }
+    }
+    return lit / f32(COUNT);
+}
