@@ -230,7 +230,7 @@ fn render(
 ) -> Result<Rendered> {
     let shadows = &contestant.shadows;
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    shadows.encode(&mut encoder, |view, pass| stage.draw_casters(view, pass));
+    shadows.encode(&mut encoder, |view, pass| stage.draw_casters(&contestant.casters, view, pass));
     lighting.encode_lookup(&mut encoder, stage, &contestant.lookup, Some(shadows), None);
     lighting.encode_picture(&mut encoder, stage);
     gpu.finish(encoder)?;

@@ -12,10 +12,12 @@ use bytemuck::{Pod, Zeroable};
 use glam::{Mat4, Vec3, camera::rh};
 use wgpu::{RenderPass, TextureFormat, TextureView};
 
+mod casters;
 mod materials;
 mod pipelines;
 pub(crate) mod surfaces;
 
+pub use casters::Casters;
 use materials::Materials;
 use pipelines::Pipelines;
 pub(crate) use pipelines::fullscreen;
@@ -148,10 +150,11 @@ impl Stage {
             })
         };
         let masked = |m: usize| matches!(geometry.materials[m].alpha, AlphaMode::Mask { .. });
+        let storage = |label, bytes, usage| gpu.buffer(label, bytes, usage | Usage::STORAGE);
         let stage = Self {
-            positions: gpu.buffer("positions", bytemuck::cast_slice(&geometry.positions), Usage::VERTEX),
-            attributes: gpu.buffer("attributes", bytemuck::cast_slice(&attributes), Usage::VERTEX),
-            indices: gpu.buffer("indices", bytemuck::cast_slice(&geometry.indices), Usage::INDEX),
+            positions: storage("positions", bytemuck::cast_slice(&geometry.positions), Usage::VERTEX),
+            attributes: storage("attributes", bytemuck::cast_slice(&attributes), Usage::VERTEX),
+            indices: storage("indices", bytemuck::cast_slice(&geometry.indices), Usage::INDEX),
             groups: geometry.groups.iter().map(|(m, r)| (*m, 3 * r.start..3 * r.end, masked(*m))).collect(),
             frame_group: uniform(&frame_buffer, size_of::<Frame>()),
             light_group: uniform(&light_buffer, size_of::<Mat4>()),
@@ -198,7 +201,20 @@ impl Stage {
 
     /// Draws every caster into a shadow map's pass, for one of the views of
     /// [`set_views`](Self::set_views). Opaque ones first, in one draw.
-    pub fn draw_casters(&self, view: &antumbra::View, pass: &mut RenderPass<'_>) {
+    pub fn draw_casters(&self, casters: &Casters, view: &antumbra::View, pass: &mut RenderPass<'_>) {
+        let opaque = self.groups.iter().filter(|g| !g.2).map(|g| g.1.end).max().unwrap_or(0);
+        let masked = self.groups.iter().filter(|g| g.2);
+        if let Casters::Triangles { mesh, cutout, attributes } = casters {
+            mesh.draw_part(view, pass, 0..opaque / 3);
+            let Some(cutout) = cutout else { return };
+            pass.set_pipeline(cutout);
+            pass.set_bind_group(3, attributes, &[]);
+            for (material, range, _) in masked {
+                pass.set_bind_group(2, &self.materials.groups[*material], &[]);
+                mesh.draw_part(view, pass, range.start / 3..range.end / 3);
+            }
+            return;
+        }
         let view = self.views.iter().position(|v| v == view);
         debug_assert!(view.is_some(), "casters drawn for a view that set_views was not told of");
         let Some(view) = view else { return };
@@ -207,13 +223,12 @@ impl Stage {
         pass.set_vertex_buffer(1, self.attributes.slice(..));
         pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
         pass.set_bind_group(0, &self.light_group, &[offset]);
-        let opaque = self.groups.iter().filter(|g| !g.2).map(|g| g.1.end).max().unwrap_or(0);
         if opaque > 0 {
             pass.set_pipeline(&self.pipelines.caster);
             pass.draw_indexed(0..opaque, 0, 0..1);
         }
         pass.set_pipeline(&self.pipelines.masked_caster);
-        for (material, range, _) in self.groups.iter().filter(|g| g.2) {
+        for (material, range, _) in masked {
             pass.set_bind_group(1, &self.materials.groups[*material], &[]);
             pass.draw_indexed(range.clone(), 0, 0..1);
         }

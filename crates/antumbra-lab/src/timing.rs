@@ -8,7 +8,7 @@ use crate::{
     gpu::Gpu,
     lighting::{Lighting, Lookup},
     results::{PassTime, Spread, TimeMethod, TimeResult},
-    stage::Stage,
+    stage::{Casters, Stage},
 };
 use antumbra::{Probe, ShadowMap};
 use anyhow::Result;
@@ -100,8 +100,8 @@ impl Probe for Stopwatch {
 /// What one entrant of a race looks like: `None` shades without any shadow.
 #[derive(Debug, Clone, Copy)]
 pub struct Entrant<'a> {
-    /// The shadow map, prepared.
-    pub shadows: Option<&'a ShadowMap>,
+    /// The shadow map, prepared, and how its casters are drawn.
+    pub shadows: Option<(&'a ShadowMap, &'a Casters)>,
     /// Its lookup pass.
     pub lookup: &'a Lookup,
 }
@@ -156,12 +156,13 @@ fn frame(
 ) -> Result<(f64, Vec<(&'static str, f64)>)> {
     stopwatch.labels.clear();
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    if let Some(shadows) = entrant.shadows {
-        shadows.encode_probed(&mut encoder, stopwatch, |view, pass| stage.draw_casters(view, pass));
+    if let Some((shadows, casters)) = entrant.shadows {
+        shadows.encode_probed(&mut encoder, stopwatch, |view, pass| stage.draw_casters(casters, view, pass));
     }
     stage.encode_surfaces(&mut encoder, stopwatch.pass("surfaces", 0));
     let timestamps = stopwatch.pass("lookup", 0);
-    lighting.encode_lookup(&mut encoder, stage, entrant.lookup, entrant.shadows, timestamps);
+    let shadows = entrant.shadows.map(|(shadows, _)| shadows);
+    lighting.encode_lookup(&mut encoder, stage, entrant.lookup, shadows, timestamps);
     stopwatch.resolve(&mut encoder);
     let start = Instant::now();
     gpu.finish(encoder)?;

@@ -2,7 +2,7 @@
 
 use antumbra::{
     Capabilities, Parameter, Technique, Unsupported, technique,
-    technique::{Bias, Binding, Class, Constant, DepthSpace, Map, Page, Pass, Uniform},
+    technique::{Bias, Binding, Caster, Class, Constant, DepthSpace, Map, Page, Pass, Uniform},
 };
 
 /// A technique with one thing wrong; everything else is that of `inner`.
@@ -77,6 +77,9 @@ impl Technique for Broken {
             }
         }
         Ok(maps)
+    }
+    fn caster(&self) -> Caster {
+        self.inner.caster()
     }
     fn bindings(&self) -> Vec<Binding> {
         self.inner.bindings()

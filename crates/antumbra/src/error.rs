@@ -84,6 +84,14 @@ pub enum Unsupported {
         /// What to do.
         instead: String,
     },
+    /// Depth alone does not hold what the technique keeps.
+    #[error(
+        "{technique} keeps triangles, which a depth texture does not hold; use ShadowMap::new and draw CasterMesh in the closure of encode"
+    )]
+    Triangles {
+        /// Name of the technique.
+        technique: String,
+    },
     /// The caller's depth texture cannot be read.
     #[error("the depth texture has {what} = {found}; needed: {needed}")]
     Depth {
@@ -97,6 +105,39 @@ pub enum Unsupported {
     /// A setting of the technique is out of range.
     #[error(transparent)]
     Setting(#[from] SettingError),
+}
+
+/// Why buffers are no [`CasterMesh`](crate::CasterMesh).
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum MeshError {
+    /// The vertex shader reads storage buffers.
+    #[error("the buffer of {what} has usage {found}; needed: STORAGE")]
+    Usage {
+        /// positions or indices.
+        what: &'static str,
+        /// Its usage.
+        found: String,
+    },
+    /// Not a triangle, or more than one binding may hold.
+    #[error("the buffer of {what} has {bytes} bytes; allowed on this device: 12 to {max}")]
+    Bytes {
+        /// positions or indices.
+        what: &'static str,
+        /// Its size.
+        bytes: u64,
+        /// Largest size.
+        max: u64,
+    },
+    /// A range that is not within the indices.
+    #[error("triangles {start}..{end} are not within the {count} that the indices hold or that can be drawn")]
+    Triangles {
+        /// First triangle.
+        start: u32,
+        /// Behind the last.
+        end: u32,
+        /// Triangles that there are.
+        count: u32,
+    },
 }
 
 /// Why a light has no view.

@@ -115,12 +115,13 @@ pub mod technique;
 
 pub use capabilities::Capabilities;
 pub use cascade::{Cascades, Stage};
-pub use error::{LightError, SettingError, Unsupported};
+pub use error::{LightError, MeshError, SettingError, Unsupported};
 pub use filter::{Filter, Sampling, Values};
 pub use kernel::{Kernel, Weights};
 pub use light::{Bounds, Fit, Light, Size, View, visible_hull};
 pub use map::{
-    DEPTH_FORMAT, Lifetime, Memory, MemoryItem, NoProbe, Options, Pipelines, Probe, ShadowMap, TooManyViews,
+    CasterMesh, DEPTH_FORMAT, Lifetime, Memory, MemoryItem, NoProbe, Options, Pipelines, Probe, ShadowMap,
+    TooManyViews,
 };
 pub use parameter::{Choice, Field, Parameter};
 pub use precision::Precision;
@@ -128,5 +129,6 @@ pub use shader::{CASTER_WGSL, ShaderText};
 pub use table::Table;
 pub use technique::{
     Technique, bicubic::Bicubic, csm::Csm, esm::Esm, evsm::Evsm, footprint::Footprint, hard::Hard,
-    lvsm::Lvsm, msm::Msm, packed::Packed, pcf::Pcf, poisson::Poisson, stratified::Stratified, vsm::Vsm,
+    lvsm::Lvsm, msm::Msm, packed::Packed, pcf::Pcf, poisson::Poisson, spsm::Spsm, stratified::Stratified,
+    vsm::Vsm,
 };

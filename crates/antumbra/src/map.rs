@@ -6,11 +6,12 @@ use crate::{
     light::{Size, View},
     pass::{self, Slot, Step, Work},
     shader::{self, ShaderText},
-    technique::{self, Bias, Binding, Map, Technique},
+    technique::{self, Bias, Binding, Caster, Map, Technique},
 };
 use glam::Vec2;
 use wgpu::{RenderPass, TextureFormat};
 
+mod caster;
 mod check;
 mod memory;
 mod pipelines;
@@ -18,6 +19,8 @@ mod receiver;
 mod textures;
 mod uniforms;
 
+pub use caster::CasterMesh;
+use caster::TriangleCaster;
 pub use memory::{Lifetime, Memory, MemoryItem};
 pub use pipelines::Pipelines;
 use pipelines::Run;
@@ -123,6 +126,8 @@ pub struct ShadowMap {
     textures: Textures,
     uniforms: Uniforms,
     draws: Vec<Vec<Draw>>,
+    /// For techniques whose casters are triangles.
+    triangles: Option<TriangleCaster>,
     layout: wgpu::BindGroupLayout,
     bind_group: wgpu::BindGroup,
     views: Vec<View>,
@@ -176,6 +181,14 @@ impl ShadowMap {
         let maps = technique.maps(&capabilities)?;
         check::device(device, technique, &maps, options)?;
         let pipelines = options.pipelines.clone().unwrap_or_else(|| Pipelines::new(device));
+        check::caster(technique, &maps, depth)?;
+        let triangles = match (technique.caster(), maps.first()) {
+            (Caster::Triangles(coverages), Some(map)) => {
+                let room = (options.size, options.views);
+                Some(TriangleCaster::new(device, technique, coverages, map.format, room, &pipelines))
+            }
+            _ => None,
+        };
         let compares = technique.bindings().contains(&Binding::Depth);
         let textures = Textures::new(device, &capabilities, &maps, options, depth, compares);
         let bias = options.bias.unwrap_or_else(|| technique.bias());
@@ -197,6 +210,7 @@ impl ShadowMap {
             textures,
             uniforms,
             draws,
+            triangles,
             layout,
             bind_group,
             views: Vec::with_capacity(options.views as usize),
@@ -221,13 +235,18 @@ impl ShadowMap {
         self.caster_views
             .extend(views.iter().flat_map(|view| self.jitter.iter().map(move |o| jittered(view, *o))));
         self.uniforms.write(queue, views);
+        if let Some(triangles) = &self.triangles {
+            triangles.write(queue, views);
+        }
         Ok(())
     }
 
     /// Draws the casters of every view and filters what they leave. `draw` gets the view, whose
     /// [`clip_from_world`](View::clip_from_world) places the casters, and a pass with a depth
     /// attachment of [`DEPTH_FORMAT`], cleared to 1, and no colour. A technique that draws them several
-    /// times asks for each of [`caster_views`](Self::caster_views).
+    /// times asks for each of [`caster_views`](Self::caster_views). If the technique's
+    /// [`caster`](Technique::caster) is [`Caster::Triangles`], the pass has its pipeline and group 0
+    /// set, and `draw`, which is called once per layer, calls [`CasterMesh::draw`].
     pub fn encode(&self, encoder: &mut wgpu::CommandEncoder, draw: impl FnMut(&View, &mut RenderPass<'_>)) {
         self.encode_probed(encoder, &mut NoProbe, draw);
     }
@@ -242,7 +261,9 @@ impl ShadowMap {
         let last = self.jitter.len() - 1;
         for view in 0..self.views.len() {
             for cast in 0..=last {
-                self.encode_cast(encoder, view, cast, probe, &mut draw);
+                for layer in 0..self.triangles.as_ref().map_or(1, TriangleCaster::passes) {
+                    self.encode_cast(encoder, (view, cast, layer), probe, &mut draw);
+                }
                 let follows = |draw: &Draw| draw.cast.map_or(last, |c| c as usize) == cast;
                 self.encode_view_filter(encoder, view, follows, probe);
             }
@@ -259,14 +280,15 @@ impl ShadowMap {
     fn encode_cast(
         &self,
         encoder: &mut wgpu::CommandEncoder,
-        view: usize,
-        cast: usize,
+        (view, cast, layer): (usize, usize, usize),
         probe: &mut dyn Probe,
         draw: &mut impl FnMut(&View, &mut RenderPass<'_>),
     ) {
+        let target = self.triangles.is_some().then(|| self.textures.map_target(view, layer));
+        let target = target.map(|target| textures::written(target, false));
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("shadow cast"),
-            color_attachments: &[],
+            color_attachments: if target.is_some() { std::slice::from_ref(&target) } else { &[] },
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
                 view: self.textures.caster_target(view),
                 depth_ops: Some(wgpu::Operations {
@@ -279,7 +301,40 @@ impl ShadowMap {
             occlusion_query_set: None,
             multiview_mask: None,
         });
+        if let Some(triangles) = &self.triangles {
+            pass.set_pipeline(&triangles.pipeline);
+            pass.set_bind_group(0, triangles.group(view, layer), &[]);
+        }
         draw(&self.caster_views[view * self.jitter.len() + cast], &mut pass);
+    }
+
+    /// For casters with holes, where the technique's caster is [`Caster::Triangles`]: the pipeline to
+    /// set in the closure of [`encode`](Self::encode) before such meshes are drawn, with the caller's
+    /// own bindings, described by `layouts`, from group 2 on.
+    ///
+    /// `wgsl` declares them and defines `caster_covers(triangle: u32, weights: vec3f) -> bool`: whether
+    /// a triangle of the mesh, counted from the first index, stops light where its corners have these
+    /// weights, 0 to 1, sum 1. It may call `caster_vertex(triangle, corner) -> u32`, the index of a
+    /// corner, and samples with explicit levels. It is asked once per texel, at the triangle's point
+    /// next to the texel's centre: holes have the map's resolution, edges of their triangles
+    /// sub-texel precision, and a texel with holes says nothing about its neighbours.
+    ///
+    /// `None` if casters are depth.
+    #[must_use]
+    pub fn cutout_caster(
+        &self,
+        device: &wgpu::Device,
+        wgsl: &str,
+        layouts: &[&wgpu::BindGroupLayout],
+    ) -> Option<wgpu::RenderPipeline> {
+        self.triangles.as_ref().map(|t| t.cutout(device, self.technique.as_ref(), wgsl, layouts))
+    }
+
+    /// The pipeline that is set when the closure of [`encode`](Self::encode) is called, to return to it.
+    /// `None` if casters are depth.
+    #[must_use]
+    pub fn triangle_caster(&self) -> Option<&wgpu::RenderPipeline> {
+        self.triangles.as_ref().map(|t| &t.pipeline)
     }
 
     fn encode_view_filter(
@@ -371,7 +426,9 @@ impl ShadowMap {
     /// Every texture and buffer that was allocated, mips included.
     #[must_use]
     pub fn memory(&self) -> Memory {
-        self.textures.memory(&self.uniforms)
+        let mut memory = self.textures.memory(&self.uniforms);
+        memory.items.extend(self.triangles.as_ref().map(TriangleCaster::memory));
+        memory
     }
 
     /// Which formats and paths were chosen on this device, one sentence each.

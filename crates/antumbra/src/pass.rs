@@ -6,7 +6,7 @@
 use crate::{
     capabilities::Capabilities,
     light::Size,
-    technique::{Combine, Map, Pass, Technique},
+    technique::{Caster, Combine, Map, Pass, Technique},
 };
 use convert::Source;
 
@@ -154,6 +154,9 @@ pub(crate) fn scratch_layers(map: &Map, device: &Capabilities) -> u32 {
 /// All steps between casting and lighting of one view.
 pub(crate) fn plan(technique: &dyn Technique, device: &Capabilities, maps: &[Map], size: Size) -> Vec<Step> {
     let mut steps = Vec::new();
+    if technique.caster() != Caster::Depth {
+        return steps;
+    }
     let casts = technique.jitter().len() as u32;
     for (index, map) in maps.iter().enumerate() {
         let source = Source::new(technique, device, map);

@@ -15,6 +15,7 @@ use std::fmt::Write;
 const FILES: &[(&str, &str)] = &[
     ("caster", include_str!("shader/caster.wgsl")),
     ("chebyshev", include_str!("shader/chebyshev.wgsl")),
+    ("coverage", include_str!("shader/coverage.wgsl")),
     ("level_hardware", include_str!("shader/level/hardware.wgsl")),
     ("level_logarithmic", include_str!("shader/level/logarithmic.wgsl")),
     ("level_manual", include_str!("shader/level/manual.wgsl")),
@@ -23,6 +24,11 @@ const FILES: &[(&str, &str)] = &[
     ("lookup_nearest", include_str!("shader/lookup/nearest.wgsl")),
     ("lookup_summed", include_str!("shader/lookup/summed.wgsl")),
     ("lookup_trilinear", include_str!("shader/lookup/trilinear.wgsl")),
+    ("packing_corners", include_str!("shader/packing/corners.wgsl")),
+    ("packing_edges", include_str!("shader/packing/edges.wgsl")),
+    ("points_map", include_str!("shader/points/map.wgsl")),
+    ("points_texel", include_str!("shader/points/texel.wgsl")),
+    ("quantizer", include_str!("shader/quantizer.wgsl")),
     ("raster", include_str!("shader/raster.wgsl")),
     ("receiver", include_str!("shader/receiver.wgsl")),
     ("reference_exact", include_str!("shader/reference/exact.wgsl")),
@@ -134,6 +140,10 @@ impl ShaderText {
                 let list: Vec<String> = values.iter().map(|v| format!("{v:?}")).collect();
                 (name, format!("const {name} = array<f32, {}>({});", values.len(), list.join(", ")))
             }
+            Constant::Words(name, values) => {
+                let list: Vec<String> = values.iter().map(|v| format!("{v}u")).collect();
+                (name, format!("const {name} = array<u32, {}>({});", values.len(), list.join(", ")))
+            }
         };
         let starts = [format!("const {name} "), format!("const {name}:")];
         let mut replaced = 0;
@@ -232,6 +242,20 @@ pub(crate) fn receiver(
 /// Text of a shared file.
 pub(crate) fn file(stem: &str) -> &'static str {
     FILES.iter().find(|(name, _)| *name == stem).map_or("", |(_, text)| text)
+}
+
+/// WGSL in front of the pass that draws triangles for [`Caster::Triangles`].
+const TRIANGLES: &str = include_str!("shader/triangles.wgsl.in");
+
+/// The pass that draws triangles. `cutout` is the caller's WGSL that leaves parts of them out.
+pub(crate) fn triangles(technique: &dyn Technique, device: &Capabilities, cutout: Option<&str>) -> String {
+    let mut shader = ShaderText::library(technique, device);
+    shader.need("coverage", &[]);
+    let text = shader.text();
+    let alone = if cutout.is_some() { "true" } else { "false" };
+    let glue = TRIANGLES.lines().filter(|line| cutout.is_some() || !line.contains("// cut-outs"));
+    let glue: String = glue.flat_map(|line| [line, "\n"]).collect();
+    format!("{}\n{text}{}", cutout.unwrap_or_default(), glue.replace("{alone}", alone))
 }
 
 #[cfg(test)]

@@ -51,7 +51,31 @@ pub struct Page {
     pub paper: &'static str,
 }
 
-/// One filterable texture array that a technique keeps per view.
+/// What the casters' pass leaves for a technique.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Caster {
+    /// Depth, drawn by the renderer's own pipelines; maps are encoded from it.
+    Depth,
+    /// The nearest triangle of each texel, drawn from [`CasterMesh`](crate::CasterMesh)es by the
+    /// library's pipelines straight into the only one of [`Technique::maps`], one layer per entry. The
+    /// technique's WGSL, or one of its [parts](Technique::parts), defines
+    /// `packing_triangle(corners: mat3x3f, slope: vec2f) -> vec4u`, what all texels of a triangle
+    /// share; `packing_slope(words: vec4u) -> vec2f`, its slope as decoded; and `packing_texel(shared:
+    /// vec4u, corners: mat3x3f, distances: vec3f, centre: vec2f, size: vec2f, anchor: vec3f,
+    /// slope: vec2f, alone: bool) -> vec4u`, what a texel stores. All zeros are an empty texel.
+    Triangles(&'static [Coverage]),
+}
+
+/// Which texels a triangle is drawn to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Coverage {
+    /// All that it touches: conservative rasterisation.
+    Touched,
+    /// Those whose centre it covers, as rasterisers do.
+    Centre,
+}
+
+/// One texture array that a technique keeps per view.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Map {
     /// Name in memory listings.
@@ -134,6 +158,8 @@ pub enum Constant {
     Number(&'static str, f32),
     /// `const NAME = array<f32, n>(…);`
     Array(&'static str, Vec<f32>),
+    /// `const NAME = array<u32, n>(…);`
+    Words(&'static str, Vec<u32>),
 }
 
 /// A kind of pixel that a technique tells apart, for debug views.
@@ -246,6 +272,10 @@ pub trait Technique: Debug + Send + Sync {
     /// [`ShadowMap::explain`](crate::ShadowMap::explain).
     fn fallbacks(&self, _device: &Capabilities) -> Vec<String> {
         Vec::new()
+    }
+    /// What its casters leave.
+    fn caster(&self) -> Caster {
+        Caster::Depth
     }
     /// What its visibility function reads, in parameter order.
     fn bindings(&self) -> Vec<Binding>;
@@ -396,4 +426,5 @@ techniques! {
     evsm::Evsm,
     msm::Msm,
     lvsm::Lvsm,
+    spsm::Spsm,
 }

@@ -8,7 +8,7 @@
 
 mod common;
 
-use antumbra::{Options, Size, technique, technique::Bias};
+use antumbra::{Options, ShadowMap, Size, technique, technique::Bias};
 use antumbra_testing::{
     Gpu, Trials,
     image::{Image, Tolerance},
@@ -269,6 +269,39 @@ fn esm_needs_no_bias(gpu: &Gpu) {
     assert!(hard > 0.2, "without bias a comparison shadows a tilted plane: {hard}");
 }
 
+/// Casters are a slanted triangle and a far smaller one beside it; the answer is known everywhere.
+fn spsm_resolves_edges_below_a_texel(gpu: &Gpu) {
+    let triangles = [[(0.2, 0.13), (0.83, 0.42), (0.31, 0.87)], [(0.81, 0.71), (0.86, 0.72), (0.82, 0.74)]];
+    let corner = |(u, v): (f32, f32)| Vec3::new(2.0 * u - 1.0, 1.0 - 2.0 * v, 0.3);
+    let corners: Vec<Vec3> = triangles.iter().flatten().map(|c| corner(*c)).collect();
+    let mesh = common::caster_mesh(gpu, &corners);
+    let receivers: Vec<Receiver> =
+        receivers().into_iter().map(|r| Receiver { depth: 0.8, normal: Vec3::NEG_Z, ..r }).collect();
+    let covered = |p: Vec2| {
+        triangles.iter().any(|t| {
+            let [a, b, c] = t.map(|(u, v)| Vec2::new(u, v));
+            let side = |a: Vec2, b: Vec2| (b - a).perp_dot(p - a);
+            side(a, b) >= 0.0 && side(b, c) >= 0.0 && side(c, a) >= 0.0
+        })
+    };
+    // A small map: many receivers per texel.
+    let wrong = |spec: &str, size: u32| {
+        let technique = technique::parse(spec).unwrap();
+        let mut shadows = ShadowMap::new(&gpu.device, technique.as_ref(), Size::square(size)).unwrap();
+        let view = common::view(Size::square(size));
+        shadows.prepare(&gpu.queue, &[view]).unwrap();
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        shadows.encode(&mut encoder, |view, pass| mesh.draw(view, pass));
+        gpu.queue.submit([encoder.finish()]);
+        let differs = |(r, v): (&Receiver, f32)| (v < 0.5) != covered(r.uv);
+        receivers.iter().zip(visibility(gpu, &shadows, &receivers)).filter(|pair| differs(*pair)).count()
+    };
+    let (published, two) = (wrong("spsm.layers=1", 20), wrong("spsm", 20));
+    assert!(published <= 8 && two <= 8, "{published} and {two} of {} pixels", receivers.len());
+    let coarse = wrong("spsm.packing=map", 20);
+    assert!(coarse <= 80, "{coarse} with corners over the map");
+}
+
 fn main() {
     type Claim = (&'static str, &'static str, fn(&Gpu));
     const CLAIMS: &[Claim] = &[
@@ -285,6 +318,7 @@ fn main() {
         ("evsm", "bleeds less than vsm", evsm_bleeds_less_than_vsm),
         ("msm", "bleeds less than vsm", msm_bleeds_less_than_vsm),
         ("lvsm", "bleeds less than vsm", lvsm_bleeds_less_than_vsm),
+        ("spsm", "edges finer than texels", spsm_resolves_edges_below_a_texel),
     ];
     let path =
         |name: &str| PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("tests/golden/{name}.png"));

@@ -31,9 +31,10 @@ pub(crate) fn run(arguments: &Maps) -> Result<()> {
     let (geometry, light) = (&setting.geometry, &setting.light);
     let (contestants, view) =
         compare::enter(&gpu, &mut stage, geometry, light, &techniques, arguments.scene.size)?;
-    let Some(shadows) = contestants.first().map(|c| &c.shadows) else { bail!("no technique was named") };
+    let Some(contestant) = contestants.first() else { bail!("no technique was named") };
+    let shadows = &contestant.shadows;
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    shadows.encode(&mut encoder, |view, pass| stage.draw_casters(view, pass));
+    shadows.encode(&mut encoder, |view, pass| stage.draw_casters(&contestant.casters, view, pass));
     gpu.finish(encoder)?;
     let mut written = Vec::new();
     let folder = files::write_folder(&arguments.output, |folder| -> Result<()> {

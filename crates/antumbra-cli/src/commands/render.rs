@@ -61,7 +61,7 @@ pub(crate) fn run(arguments: &Render) -> Result<()> {
         }
         Some(contestant) => {
             let shadows = &contestant.shadows;
-            shadows.encode(&mut encoder, |view, pass| stage.draw_casters(view, pass));
+            shadows.encode(&mut encoder, |view, pass| stage.draw_casters(&contestant.casters, view, pass));
             lighting.encode_lookup(&mut encoder, &stage, &contestant.lookup, Some(shadows), None);
         }
     }

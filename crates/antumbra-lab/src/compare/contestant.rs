@@ -5,7 +5,7 @@ use crate::{
     gpu::Gpu,
     lighting::{Lighting, Lookup},
     plane::Plane,
-    stage::Stage,
+    stage::{Casters, Stage},
     timing::Entrant,
 };
 use antumbra::{Options, Pipelines, ShadowMap, Size, Technique, View, technique};
@@ -19,6 +19,8 @@ pub struct Contestant {
     pub shadows: ShadowMap,
     /// Its lookup pass.
     pub lookup: Lookup,
+    /// How its casters are drawn.
+    pub casters: Casters,
     /// The pass that asks for classes, if it has any.
     pub classes: Option<Lookup>,
 }
@@ -40,7 +42,7 @@ impl Contestant {
     /// What a race takes.
     #[must_use]
     pub fn entrant(&self) -> Entrant<'_> {
-        Entrant { shadows: Some(&self.shadows), lookup: &self.lookup }
+        Entrant { shadows: Some((&self.shadows, &self.casters)), lookup: &self.lookup }
     }
 }
 
@@ -64,9 +66,11 @@ pub fn enter(
         let shadows = ShadowMap::new(&gpu.device, technique.as_ref(), options)
             .with_context(|| technique::spec(technique.as_ref()))?;
         let lookup = Lookup::new(gpu, stage, &shadows);
+        let casters =
+            Casters::new(gpu, stage, &shadows).with_context(|| technique::spec(technique.as_ref()))?;
         let classes = Lookup::classes(gpu, stage, &shadows);
         gpu.check().with_context(|| technique::spec(technique.as_ref()))?;
-        contestants.push(Contestant { shadows, lookup, classes });
+        contestants.push(Contestant { shadows, lookup, casters, classes });
     }
     let maps: Vec<&ShadowMap> = contestants.iter().map(|c| &c.shadows).collect();
     let view = view(stage, geometry, light, &maps)?;

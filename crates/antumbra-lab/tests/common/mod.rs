@@ -10,7 +10,7 @@ use antumbra_lab::{
     lighting::{Lighting, Lookup},
     metrics::{self, Score},
     plane::Plane,
-    stage::Stage,
+    stage::{Casters, Stage},
 };
 use antumbra_scene::{Camera, Geometry, Light, Scene};
 use antumbra_truth::{CameraRays, Coverage, CoverageTolerance, Tracer, Visibility};
@@ -75,7 +75,8 @@ impl Shot {
         self.stage.set_views(&self.gpu, shadows.caster_views());
         let lookup = Lookup::new(&self.gpu, &self.stage, shadows);
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
-        shadows.encode(&mut encoder, |view, pass| self.stage.draw_casters(view, pass));
+        let casters = Casters::new(&self.gpu, &self.stage, shadows).unwrap();
+        shadows.encode(&mut encoder, |view, pass| self.stage.draw_casters(&casters, view, pass));
         self.stage.encode_surfaces(&mut encoder, None);
         self.lighting.encode_lookup(&mut encoder, &self.stage, &lookup, Some(shadows), None);
         self.gpu.finish(encoder).unwrap();

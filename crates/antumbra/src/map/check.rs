@@ -4,7 +4,7 @@ use super::{Options, uniforms};
 use crate::{
     error::Unsupported,
     light::Size,
-    technique::{Map, Technique},
+    technique::{Caster, Map, Technique},
 };
 use wgpu::TextureUsages;
 
@@ -49,6 +49,25 @@ pub(super) fn device(
         });
     }
     Ok(())
+}
+
+/// Whether the casters can leave what the technique keeps.
+pub(super) fn caster(
+    technique: &dyn Technique,
+    maps: &[Map],
+    depth: Option<&wgpu::Texture>,
+) -> Result<(), Unsupported> {
+    let name = technique.page().name.to_string();
+    match (technique.caster(), depth, maps) {
+        (Caster::Depth, ..) => Ok(()),
+        (Caster::Triangles(_), Some(_), _) => Err(Unsupported::Triangles { technique: name }),
+        (Caster::Triangles(all), None, [map]) if map.layers as usize == all.len() => Ok(()),
+        (Caster::Triangles(_), None, _) => Err(Unsupported::Feature {
+            technique: name,
+            what: "one map with a layer for each of its casters' passes".into(),
+            instead: "describe just that in Technique::maps".into(),
+        }),
+    }
 }
 
 /// Whether the passes can read a caller's depth; how many views it holds, with that many layers each.

@@ -17,6 +17,7 @@ pub struct Pipelines {
     device: wgpu::Device,
     nearest: wgpu::Sampler,
     made: Arc<Mutex<HashMap<Key, Pipeline>>>,
+    casters: Arc<Mutex<HashMap<Key, RenderPipeline>>>,
 }
 
 /// A compiled step.
@@ -46,6 +47,7 @@ impl Pipelines {
                 ..Default::default()
             }),
             made: Arc::default(),
+            casters: Arc::default(),
         }
     }
 
@@ -67,6 +69,18 @@ impl Pipelines {
         made.entry((step.shader.clone(), formats.to_vec(), step.writes().0))
             .or_insert_with(|| self.compile(step, formats))
             .clone()
+    }
+
+    /// A caster's pipeline, which `compile` makes unless it is there.
+    pub(super) fn caster(
+        &self,
+        shader: &str,
+        formats: &[TextureFormat],
+        compile: impl FnOnce(&wgpu::Device) -> RenderPipeline,
+    ) -> RenderPipeline {
+        let mut made = self.casters.lock().unwrap_or_else(PoisonError::into_inner);
+        let key = (shader.to_string(), formats.to_vec(), wgpu::ColorWrites::ALL);
+        made.entry(key).or_insert_with(|| compile(&self.device)).clone()
     }
 
     fn compile(&self, step: &Step, formats: &[TextureFormat]) -> Pipeline {

@@ -9,7 +9,7 @@ use crate::{
     capabilities::Capabilities,
     light::Size,
     pass::{self, Place, Slot, Step},
-    technique::{Binding, Map},
+    technique::{Binding, Map, Pass},
 };
 use wgpu::{
     TextureAspect, TextureFormat, TextureUsages, TextureView, TextureViewDescriptor, TextureViewDimension,
@@ -41,6 +41,8 @@ pub(super) struct Textures {
     caster_targets: Vec<TextureView>,
     casters_lifetime: Lifetime,
     maps: Vec<Kept>,
+    /// The layers of the first map of every view, for casters that are triangles.
+    map_targets: Vec<TextureView>,
 }
 
 impl Textures {
@@ -68,7 +70,7 @@ impl Textures {
         let keep = |map: &Map| {
             let levels = pass::levels(map, options.size);
             let layers = map.layers * options.views;
-            let written = if map.holds_integers() {
+            let written = if map.passes.iter().any(|p| matches!(p, Pass::Sum(_))) {
                 TextureUsages::STORAGE_BINDING
             } else {
                 TextureUsages::RENDER_ATTACHMENT
@@ -81,13 +83,15 @@ impl Textures {
             };
             Kept { name: map.name, layers: map.layers, array: all(&kept), texture: kept, scratch }
         };
-        Self {
-            casters_array: all(&casters),
-            casters,
-            caster_targets,
-            casters_lifetime,
-            maps: maps.iter().map(keep).collect(),
-        }
+        let maps: Vec<Kept> = maps.iter().map(keep).collect();
+        let layers = maps.first().map_or(0, |map| map.layers * options.views);
+        let map_targets = (0..layers).map(|layer| one(&maps[0].texture, layer, 0)).collect();
+        Self { casters_array: all(&casters), casters, caster_targets, casters_lifetime, map_targets, maps }
+    }
+
+    /// A layer of the first map of a view.
+    pub(super) fn map_target(&self, view: usize, layer: usize) -> &TextureView {
+        &self.map_targets[view * self.maps[0].layers as usize + layer]
     }
 
     /// Depth attachment of a view.

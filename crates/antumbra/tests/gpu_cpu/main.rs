@@ -8,6 +8,7 @@ mod basis;
 #[path = "../common/mod.rs"]
 mod common;
 mod comparison;
+mod geometry;
 mod lookups;
 mod receiver;
 mod stored;
@@ -23,7 +24,7 @@ const INPUTS: usize = 16;
 type Row = [f32; INPUTS];
 
 /// Encode functions that a trial below compares.
-const ENCODE_FUNCTIONS: [&str; 10] = [
+const ENCODE_FUNCTIONS: [&str; 11] = [
     "vsm_encode",
     "vsm_encode_sloped",
     "csm_encode",
@@ -34,6 +35,7 @@ const ENCODE_FUNCTIONS: [&str; 10] = [
     "lvsm_encode",
     "packed_encode",
     "stratified_encode",
+    "packing_texel",
 ];
 
 fn rows(seed: u64, make: impl Fn(&mut Random) -> Row) -> Vec<Row> {
@@ -168,5 +170,12 @@ fn main() {
     trials.add("words add up", lookups::words_add_up);
     trials.add("sums are means over boxes", lookups::sums_are_means_over_boxes);
     trials.add("sums at 2048² are exact", lookups::sums_are_exact_at_2048);
+    trials.add("triangles survive packing", geometry::triangles_survive_packing);
+    trials.add("slopes are quantised as published", geometry::slopes_are_quantised);
+    trials.add("spsm intersects (Algorithm 1)", geometry::spsm_intersects);
+    trials.add("spsm finds consistent least depths", geometry::spsm_finds_least_depths);
+    trials.add("spsm's table of tangents", geometry::spsm_tangents);
+    trials.add("every touched texel is drawn", geometry::every_touched_texel_is_drawn);
+    trials.add("triangles that reach behind a spot are cut", geometry::triangles_behind_a_spot_are_cut);
     trials.run();
 }

@@ -1,0 +1,60 @@
+//! How the casters of a stage are drawn for a shadow map: depth, or triangles where it keeps those.
+
+use super::Stage;
+use crate::gpu::Gpu;
+use antumbra::{CasterMesh, ShadowMap};
+use anyhow::Result;
+use glam::Mat4;
+
+const CUTOUT: &str = concat!(include_str!("frame.wgsl"), include_str!("cutout.wgsl"));
+
+/// What drawing casters for one shadow map takes.
+#[derive(Debug)]
+pub enum Casters {
+    /// The stage's own pipelines.
+    Depth,
+    /// The library's.
+    Triangles {
+        /// All triangles of the stage.
+        mesh: CasterMesh,
+        /// For masked materials; `None` if the scene has none.
+        cutout: Option<wgpu::RenderPipeline>,
+        /// Normals, texture coordinates and colours of the vertices.
+        attributes: wgpu::BindGroup,
+    },
+}
+
+impl Casters {
+    /// For one shadow map.
+    ///
+    /// # Errors
+    /// More geometry than one binding may hold.
+    pub fn new(gpu: &Gpu, stage: &Stage, shadows: &ShadowMap) -> Result<Self> {
+        if shadows.triangle_caster().is_none() {
+            return Ok(Self::Depth);
+        }
+        let triangles = 0..stage.groups.iter().map(|group| group.1.end / 3).max().unwrap_or(0);
+        let mesh = CasterMesh::new(&gpu.device, &stage.positions, &stage.indices, triangles, Mat4::IDENTITY)?;
+        let layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("attributes"),
+            entries: &[wgpu::BindGroupLayoutEntry {
+                binding: 0,
+                visibility: wgpu::ShaderStages::FRAGMENT,
+                ty: wgpu::BindingType::Buffer {
+                    ty: wgpu::BufferBindingType::Storage { read_only: true },
+                    has_dynamic_offset: false,
+                    min_binding_size: None,
+                },
+                count: None,
+            }],
+        });
+        let attributes = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("attributes"),
+            layout: &layout,
+            entries: &[wgpu::BindGroupEntry { binding: 0, resource: stage.attributes.as_entire_binding() }],
+        });
+        let masked = stage.groups.iter().any(|group| group.2);
+        let compile = || shadows.cutout_caster(&gpu.device, CUTOUT, &[&stage.materials.layout, &layout]);
+        Ok(Self::Triangles { mesh, cutout: masked.then(compile).flatten(), attributes })
+    }
+}

@@ -1,0 +1,92 @@
+/// The line through a and b as (n, o): n·x + o is the distance of x, negative where (b−a)×(x−a) is
+/// positive. Zero for two equal points.
+fn coverage_line(a: vec2f, b: vec2f) -> vec3f {
+    let along = b - a;
+    let length = length(along);
+    let n = select(vec2f(along.y, -along.x) / length, vec2f(0.0), length == 0.0);
+    return vec3f(n, -dot(n, a));
+}
+
+/// The three edges of a triangle as lines whose distances are positive outside; `corners` hold x and
+/// y in columns, in the order that gives a positive area.
+fn coverage_lines(corners: mat3x3f) -> mat3x3f {
+    return mat3x3f(
+        coverage_line(corners[1].xy, corners[2].xy),
+        coverage_line(corners[2].xy, corners[0].xy),
+        coverage_line(corners[0].xy, corners[1].xy),
+    );
+}
+
+/// Twice the area of a triangle, negative if its corners are in the other order.
+fn coverage_area(corners: mat3x3f) -> f32 {
+    let b = corners[1].xy - corners[0].xy;
+    let c = corners[2].xy - corners[0].xy;
+    return b.x * c.y - b.y * c.x;
+}
+
+/// Corner 0 to 3 of a rectangle that holds the centres of all texels that a triangle covers. It lies
+/// along the triangle's longest edge, so that its area stays near twice the triangle's however thin
+/// and slanted that is; its margin is what a texel of that `reach` extends across [Hasselgren et al.
+/// 2005], and a hundredth for the rasteriser's grid.
+fn coverage_corner(corners: mat3x3f, corner: u32, reach: f32) -> vec2f {
+    var along = corners[1].xy - corners[0].xy;
+    for (var k = 1u; k < 3u; k += 1u) {
+        let edge = corners[(k + 1u) % 3u].xy - corners[k].xy;
+        along = select(along, edge, dot(edge, edge) > dot(along, along));
+    }
+    let length = length(along);
+    let u = select(along / length, vec2f(1.0, 0.0), length == 0.0);
+    let v = vec2f(-u.y, u.x);
+    let origin = corners[0].xy;
+    let b = corners[1].xy - origin;
+    let c = corners[2].xy - origin;
+    let across = vec3f(0.0, dot(b, u), dot(c, u));
+    let down = vec3f(0.0, dot(b, v), dot(c, v));
+    let margin = (reach + 0.01) * (abs(u.x) + abs(u.y));
+    let low = vec2f(min(across.x, min(across.y, across.z)), min(down.x, min(down.y, down.z))) - margin;
+    let high = vec2f(max(across.x, max(across.y, across.z)), max(down.x, max(down.y, down.z))) + margin;
+    let at = vec2f(select(low.x, high.x, (corner & 1u) != 0u), select(low.y, high.y, (corner & 2u) != 0u));
+    return origin + at.x * u + at.y * v;
+}
+
+/// Whether a texel is covered: its square, `reach` texels to each side of its centre (one half for all
+/// of it, zero for the centre alone), is not beyond one of the triangle's edges (`distances` of
+/// its centre from the `lines`), nor beside the box around it (`bounds`: smallest x and y, largest x
+/// and y). These are all separating axes of a square and a triangle. The slack, half a thousandth of
+/// a texel, is more than rounding moves a corner, on maps of up to 4096 texels.
+fn coverage_touches(lines: mat3x3f, distances: vec3f, bounds: vec4f, centre: vec2f, reach: f32) -> bool {
+    let sides = reach * vec3f(
+        abs(lines[0].x) + abs(lines[0].y),
+        abs(lines[1].x) + abs(lines[1].y),
+        abs(lines[2].x) + abs(lines[2].y),
+    );
+    return all(distances <= sides + 5e-4)
+        && all(centre >= bounds.xy - reach - 5e-4)
+        && all(centre <= bounds.zw + reach + 5e-4);
+}
+
+/// The point of a triangle that lies next to the centre of a covered texel, nearly: the centre where
+/// it is inside, else moved onto the edge that it is farthest beyond.
+fn coverage_nearest(lines: mat3x3f, distances: vec3f, bounds: vec4f, centre: vec2f) -> vec2f {
+    var line = lines[0].xy;
+    var beyond = distances.x;
+    if distances.y > beyond {
+        line = lines[1].xy;
+        beyond = distances.y;
+    }
+    if distances.z > beyond {
+        line = lines[2].xy;
+        beyond = distances.z;
+    }
+    return clamp(centre - max(beyond, 0.0) * line, bounds.xy, bounds.zw);
+}
+
+/// Depth that a triangle's plane gains per texel along x and y; depths are the third coordinates of
+/// the corners. Zero for a triangle without area.
+fn coverage_slope(corners: mat3x3f) -> vec2f {
+    let b = corners[1] - corners[0];
+    let c = corners[2] - corners[0];
+    let area = b.x * c.y - b.y * c.x;
+    let gain = vec2f(b.z * c.y - c.z * b.y, c.z * b.x - b.z * c.x);
+    return select(gain / area, vec2f(0.0), area == 0.0);
+}

@@ -1,0 +1,309 @@
+//! Sub-pixel shadow maps: every texel keeps the nearest triangle that touches it, and lookups find
+//! the shadow's edge at sub-texel precision.
+//!
+//! Casters are drawn conservatively, so that a texel without an occluder is certainly lit. A receiver
+//! is lit or shadowed by the triangle of its own texel or of the eight around it wherever that is
+//! certain; where its texel holds an occluder that is not known to cover it, triangles are missing, and
+//! the silhouette is recovered from the corners of those that were kept. Gaps between occluders that
+//! are narrower than a texel may close, and where many small triangles share a texel edges may fray.
+//!
+//! Lecocq, Marvie, Sourimant, Gautron 2014, "Sub-Pixel Shadow Mapping".
+
+use super::{
+    Bias, Binding, Caster, Class, Constant, Coverage, DepthSpace, Encode, Family, Map, Page, Technique,
+};
+use crate::{
+    capabilities::Capabilities,
+    error::Unsupported,
+    parameter::{Field, Parameter, choice},
+};
+
+choice! {
+    /// How a triangle is kept in 128 bits.
+    Packing {
+        /// Three corners, 2 × 16 bits over the map; 16 bits of depth, 2 × 8 bits of slope: as published.
+        Map = "map",
+        /// Three corners as 16-bit floats relative to the texel; depth and slope likewise.
+        Texel = "texel",
+        /// Three edges, 13 bits of direction and 13 of distance relative to the texel; 24 bits of
+        /// depth, 2 × 12 bits of slope.
+        Edges = "edges",
+    }
+}
+
+impl Packing {
+    /// The parts of WGSL that it is made of.
+    pub(crate) fn parts(self) -> Vec<&'static str> {
+        match self {
+            Self::Map => vec!["packing_corners", "points_map"],
+            Self::Texel => vec!["packing_corners", "points_texel"],
+            Self::Edges => vec!["packing_edges"],
+        }
+    }
+}
+
+/// Sub-pixel shadow map. 1 lookup where that is enough, 10 per layer else, up to 3 times as many where
+/// the silhouette has to be recovered; 16 bytes per texel and layer.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Spsm {
+    /// How a triangle is kept.
+    pub packing: Packing,
+    /// 1 as published; 2 adds the triangle at each texel's centre.
+    pub layers: u32,
+    /// With 2 layers: so many slivers in the nine texels around an uncertain receiver, 1 to 10 (never),
+    /// have it ask the texels' centres instead of their silhouette.
+    pub slivers: u32,
+    /// Positions along one side of a pixel at which silhouettes are asked, 1 to 4.
+    pub samples: u32,
+}
+
+impl Default for Spsm {
+    fn default() -> Self {
+        Self { packing: Packing::Edges, layers: 2, slivers: 6, samples: 1 }
+    }
+}
+
+impl Technique for Spsm {
+    fn page(&self) -> Page {
+        Page {
+            name: "spsm",
+            title: "Sub-pixel shadow map",
+            family: Family::Geometry,
+            paper: "Lecocq, Marvie, Sourimant, Gautron 2014",
+        }
+    }
+    fn parameters(&mut self) -> Vec<Parameter<'_>> {
+        vec![
+            Parameter::new(
+                "packing",
+                "",
+                Field::Choice(&mut self.packing),
+                "how a triangle is kept in 128 bits: corners over the map, corners relative to the texel, edges",
+            ),
+            Parameter::new(
+                "layers",
+                "",
+                Field::Count(&mut self.layers, 1..=2),
+                "triangles per texel: one that touches it, as published; with 2 also the one at its centre",
+            ),
+            Parameter::new(
+                "slivers",
+                "texels",
+                Field::Count(&mut self.slivers, 1..=10),
+                "so many slivers in the 3×3 texels leave no silhouette: centres are asked instead, with 2 layers",
+            ),
+            Parameter::new(
+                "samples",
+                "",
+                Field::Count(&mut self.samples, 1..=4),
+                "positions along one side of a pixel at which silhouettes are asked",
+            ),
+        ]
+    }
+    fn maps(&self, _: &Capabilities) -> Result<Vec<Map>, Unsupported> {
+        Ok(vec![Map {
+            name: "triangles",
+            format: wgpu::TextureFormat::Rgba32Uint,
+            layers: self.layers,
+            encode: Encode::Texel("packing_texel"),
+            passes: Vec::new(),
+        }])
+    }
+    fn caster(&self) -> Caster {
+        Caster::Triangles(&[Coverage::Touched, Coverage::Centre][..self.layers.min(2) as usize])
+    }
+    fn bindings(&self) -> Vec<Binding> {
+        vec![Binding::Map(0)]
+    }
+    fn wgsl(&self) -> &'static str {
+        include_str!("spsm.wgsl")
+    }
+    fn constants(&self) -> Vec<Constant> {
+        vec![
+            Constant::Words("spsm_tangents", (0..256).map(reference::tangents).collect()),
+            Constant::Count("spsm_layers", self.layers),
+            Constant::Count("spsm_slivers", self.slivers),
+            Constant::Count("spsm_samples", self.samples),
+        ]
+    }
+    fn parts(&self, _: &Capabilities) -> Vec<&'static str> {
+        self.packing.parts()
+    }
+    fn bias(&self) -> Bias {
+        Bias { constant_texels: 0.05, slope_texels: 0.05, ..Bias::NONE }
+    }
+    fn depth_space(&self) -> DepthSpace {
+        DepthSpace::Raster
+    }
+    fn reach_texels(&self) -> f32 {
+        0.5
+    }
+    /// Nine texels per layer and its own first; silhouettes take as many again for each of their steps.
+    fn lookups(&self) -> u32 {
+        1 + 9 * self.layers
+    }
+    fn classes(&self) -> &'static [Class] {
+        const CLASSES: [Class; 3] = [
+            Class { name: "shadowed by its own texel's triangle", colour: [90, 110, 160] },
+            Class { name: "shadowed by a triangle of 3×3 texels", colour: [40, 160, 60] },
+            Class { name: "silhouette recovered", colour: [224, 32, 32] },
+        ];
+        &CLASSES
+    }
+    fn boxed(&self) -> Box<dyn Technique> {
+        Box::new(*self)
+    }
+}
+
+/// The paper's steps in f64.
+pub mod reference {
+    /// Q of Eq. 3 with n = 5, before rounding: 0 to 254.
+    #[must_use]
+    pub fn quantize(slope: f64) -> f64 {
+        127.0 * (1.0 + (std::f64::consts::FRAC_2_PI * slope.atan()).powi(5))
+    }
+
+    /// The slope of a level, Eq. 4 with the signed root.
+    #[must_use]
+    pub fn dequantize(level: f64) -> f64 {
+        let power = level / 127.0 - 1.0;
+        (std::f64::consts::FRAC_PI_2 * power.signum() * power.abs().powf(0.2)).tan()
+    }
+
+    /// Twice the area of (a, b, c).
+    fn area(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
+        (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+    }
+
+    /// Weights of a triangle's corners at a point.
+    fn weights(corners: [[f64; 3]; 3], point: [f64; 2]) -> [f64; 3] {
+        let at = corners.map(|c| [c[0], c[1]]);
+        [0, 1, 2].map(|k| area(point, at[(k + 1) % 3], at[(k + 2) % 3]) / area(at[0], at[1], at[2]))
+    }
+
+    /// Algorithm 1: whether a triangle with corners (x, y, depth) is between the light and a receiver.
+    #[must_use]
+    pub fn intersects(corners: [[f64; 3]; 3], point: [f64; 2], depth: f64) -> bool {
+        let weights = weights(corners, point);
+        let plane: f64 = (0..3).map(|k| weights[k] * corners[k][2]).sum();
+        plane < depth && weights.iter().all(|w| *w >= 0.0)
+    }
+
+    /// Part of a convex polygon on the side of a line where n·x + o ≤ 0.
+    #[must_use]
+    pub fn clip(polygon: &[[f64; 2]], [nx, ny, o]: [f64; 3]) -> Vec<[f64; 2]> {
+        let side = |p: [f64; 2]| nx * p[0] + ny * p[1] + o;
+        let mut kept = Vec::new();
+        for (i, a) in polygon.iter().enumerate() {
+            let b = polygon[(i + 1) % polygon.len()];
+            let (here, there) = (side(*a), side(b));
+            if here <= 0.0 {
+                kept.push(*a);
+            }
+            if (here <= 0.0) != (there <= 0.0) {
+                let s = here / (here - there);
+                kept.push([a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1])]);
+            }
+        }
+        kept
+    }
+
+    /// Consistent minimum depth [§4.2, figure 9]: least of gain·(x, 1) over the part of a triangle that
+    /// is in the square of one texel around the origin; infinite if there is none.
+    #[must_use]
+    pub fn least(corners: [[f64; 2]; 3], gain: [f64; 3]) -> f64 {
+        let sides = [[1.0, 0.0, -0.5], [-1.0, 0.0, -0.5], [0.0, 1.0, -0.5], [0.0, -1.0, -0.5]];
+        let part = sides.iter().fold(corners.to_vec(), |part, side| clip(&part, *side));
+        part.iter().map(|p| gain[0] * p[0] + gain[1] * p[1] + gain[2]).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Entry of the table of tangents for a set of shadowed neighbours, bit k for the k-th around a
+    /// texel from the right over the one below.
+    ///
+    /// Neighbours that do not hang together with the texel over common sides are left out [§4.2,
+    /// figure 7]: conservative rasterisation guarantees that no edge crosses the texels between. Each
+    /// run of the others around the ring that are lit is one border, and its middle the direction away
+    /// from the shadow; a run that reaches more than halfway around is two borders.
+    ///
+    /// Bits 0 to 7: the neighbours that count; 8 to 10: number of tangents, 0 if all are shadowed;
+    /// from 11 on, five bits each, their directions in 32nds of a turn, from right over down.
+    #[must_use]
+    pub fn tangents(pattern: u32) -> u32 {
+        let set = |mask: u32, k: u32| mask >> (k % 8) & 1 == 1;
+        let sides = pattern & 0b0101_0101;
+        let hangs = |k: &u32| set(pattern, *k) && (k % 2 == 0 || set(sides, k + 7) || set(sides, k + 1));
+        let kept = (0..8).filter(hangs).fold(0, |mask, k| mask | 1 << k);
+        let mut directions = Vec::new();
+        let starts = (0..8).filter(|k| !set(kept, *k) && set(kept, k + 7));
+        for start in if kept == 0 { vec![0] } else { starts.collect::<Vec<u32>>() } {
+            let length = (0..8).take_while(|i| !set(kept, start + i)).count() as u32;
+            let pieces = if length > 5 { 2 } else { 1 };
+            // In quarters of a neighbour, which is an eighth of a turn.
+            directions.extend((0..pieces).map(|i| 4 * start + 30 + 2 * length * (2 * i + 1) / pieces));
+        }
+        let count = directions.len() as u32;
+        let packed = directions.iter().enumerate().fold(0, |all, (i, d)| all | (d % 32) << (11 + 5 * i));
+        kept | count << 8 | packed
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::reference::{quantize, dequantize, tangents};
+
+    /// Degrees from one level to the next around a slope, with an exponent n as in Eq. 3.
+    fn resolution(degrees: f64) -> f64 {
+        let level = quantize(degrees.to_radians().tan());
+        (dequantize(level + 0.5).atan() - dequantize(level - 0.5).atan()).to_degrees()
+    }
+
+    #[test]
+    fn steep_slopes_have_the_published_resolution() {
+        assert!((resolution(80.0) - 0.17).abs() < 0.06, "{}", resolution(80.0));
+        assert!(resolution(80.0) < 0.71 / 3.0, "linear levels are 0.71° apart");
+        assert!(resolution(40.0) > resolution(80.0));
+        for level in 1..254 {
+            assert!((quantize(dequantize(f64::from(level))) - f64::from(level)).abs() < 1e-6);
+        }
+    }
+
+    fn directions(entry: u32) -> Vec<u32> {
+        (0..(entry >> 8 & 7)).map(|i| entry >> (11 + 5 * i) & 31).collect()
+    }
+
+    #[test]
+    fn tangents_of_known_patterns() {
+        // Right half shadowed: away from it is left. Below: up. All, none.
+        assert_eq!(directions(tangents(0b1100_0111)), [16]);
+        assert_eq!(directions(tangents(0b0001_1111)), [24]);
+        assert_eq!(directions(tangents(0b1111_1111)), [0; 0]);
+        assert_eq!(directions(tangents(0)).len(), 2);
+        // A bar from left to right has a border above and one below.
+        assert_eq!(directions(tangents(0b0001_0001)), [8, 24]);
+        // A missing corner is a border of its own.
+        assert_eq!(directions(tangents(0b1111_1101)), [4]);
+    }
+
+    #[test]
+    fn neighbours_that_hang_on_nothing_do_not_count() {
+        // The upper left corner alone, and beside a shadowed right side.
+        assert_eq!(tangents(0b0010_0000) & 255, 0);
+        assert_eq!(tangents(0b0010_0001), tangents(0b0000_0001));
+        assert_eq!(tangents(0b0011_0001) & 255, 0b0011_0001);
+    }
+
+    #[test]
+    fn tangents_turn_with_the_pattern() {
+        for pattern in 1..256_u32 {
+            let turned = (pattern << 2 | pattern >> 6) & 255;
+            let mut expected: Vec<u32> = directions(tangents(pattern)).iter().map(|d| (d + 8) % 32).collect();
+            let mut found = directions(tangents(turned));
+            expected.sort_unstable();
+            found.sort_unstable();
+            if tangents(pattern) & 255 != 0 {
+                assert_eq!(found, expected, "{pattern:08b}");
+            }
+        }
+    }
+}
