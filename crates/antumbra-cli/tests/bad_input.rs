@@ -88,7 +88,7 @@ fn files(trials: &mut Trials) {
 
 fn settings(trials: &mut Trials) {
     let cases: &[(&str, &[&str])] = &[
-        ("vms", &["'vms'", "hard, pcf, vsm, csm, esm", "did you mean vsm?"]),
+        ("vms", &["'vms'", "hard, pcf, poisson", "did you mean vsm?"]),
         ("esm.k=3", &["esm", "'k'", "c, storage", "did you mean"]),
         ("esm.c=100", &["esm.c = 100", "0 to 87"]),
         ("esm.c=NaN", &["esm.c = NaN", "0 to 87"]),
