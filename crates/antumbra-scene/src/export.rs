@@ -38,7 +38,7 @@ const CLAMP_TO_EDGE: u32 = 33_071;
 const REPEAT: u32 = 10_497;
 
 /// The scene as one GLB 2.0 file with everything in it: meshes, instances, materials, images (as
-/// PNG), cameras and lights (`KHR_lights_punctual`). Meshes that no triangle uses are left out, so
+/// PNG), cameras and lights (`KHR_lights_punctual`). Meshes without triangles are left out, so
 /// are [`Scene::notes`].
 ///
 /// [`import::gltf_bytes`](crate::import::gltf_bytes) reads back the same triangles, bit for bit, and

@@ -2,9 +2,10 @@
 //!
 //! A [`Scene`] is what a file or a generator describes: meshes that instances place in the world.
 //! It comes from [`import::load`] (glTF, OBJ) or from [`procedural::by_name`] (the papers' pictures,
-//! rebuilt by formula), and [`export::glb`] writes it as a file. [`Scene::flatten`] turns it into [`Geometry`], one list of world-space
-//! triangles. Raster and rays both start from that list, bit for bit, so that they can be compared;
-//! [`Geometry::is_cut`] decides for both which points of a cut-out surface are there.
+//! rebuilt by formula), and [`export::glb`] writes it as a file. [`Scene::flatten`] turns it into
+//! [`Geometry`], one list of world-space triangles. Raster and rays both start from that list, bit
+//! for bit, so that they can be compared; [`Geometry::is_cut`] decides for both which points of a
+//! cut-out surface are there.
 //!
 //! ```
 //! use antumbra_scene::procedural;
