@@ -232,7 +232,7 @@ pub mod reference {
     pub fn tangents(pattern: u32) -> u32 {
         let set = |mask: u32, k: u32| mask >> (k % 8) & 1 == 1;
         let sides = pattern & 0b0101_0101;
-        let hangs = |k: &u32| set(pattern, *k) && (k % 2 == 0 || set(sides, k + 7) || set(sides, k + 1));
+        let hangs = |k: &u32| set(pattern, *k) && (k.is_multiple_of(2) || set(sides, k + 7) || set(sides, k + 1));
         let kept = (0..8).filter(hangs).fold(0, |mask, k| mask | 1 << k);
         let mut directions = Vec::new();
         let starts = (0..8).filter(|k| !set(kept, *k) && set(kept, k + 7));
