@@ -10,6 +10,9 @@ use common::{Folder, png_size};
 use serde_json::Value;
 use std::{collections::BTreeSet, fs, path::Path};
 
+/// Largest RMSE on `contact` of techniques that are not in the list.
+const BOUND: f64 = 0.075;
+
 /// Largest RMSE against the light-space ideal on the scene `contact`, measured plus a third.
 const BOUNDS: [(&str, f64); 8] = [
     ("hard", 0.075),
@@ -45,8 +48,10 @@ fn json(arguments: &[&str]) -> Value {
 fn lists() {
     let techniques = json(&["techniques", "--json"]);
     let names: Vec<&str> = techniques.as_array().unwrap().iter().filter_map(|t| t["name"].as_str()).collect();
-    assert_eq!(names, ["hard", "pcf", "vsm", "csm", "esm", "evsm", "msm", "lvsm"]);
-    let terms = &techniques[3]["parameters"][0];
+    assert_eq!(names[0], "hard");
+    assert!(BOUNDS.iter().all(|(name, _)| names.contains(name)), "{names:?}");
+    let csm = names.iter().position(|name| *name == "csm").unwrap();
+    let terms = &techniques[csm]["parameters"][0];
     assert_eq!((terms["name"].as_str(), terms["default"].as_str()), (Some("terms"), Some("16")));
     assert!(terms["allowed"].is_string() && terms["meaning"].is_string());
     let scenes = json(&["scenes", "--json"]);
@@ -109,9 +114,11 @@ fn technique<'a>(results: &'a Results, name: &str) -> &'a TechniqueResult {
 }
 
 fn scores(results: &Results) {
-    assert_eq!(results.techniques.len(), BOUNDS.len());
-    for (name, bound) in BOUNDS {
-        let scores = &technique(results, name).scores;
+    assert!(results.techniques.len() >= BOUNDS.len());
+    for entry in &results.techniques {
+        let name = entry.name.as_str();
+        let bound = BOUNDS.iter().find(|(n, _)| *n == name).map_or(BOUND, |(_, bound)| *bound);
+        let scores = &entry.scores;
         let rmse = scores.light_space.rmse;
         assert!(rmse <= bound, "{name}: RMSE {rmse} is above {bound}");
         assert!(scores.hard.rmse < 0.5 * results.truth.no_shadow.rmse, "{name}: {}", scores.hard.rmse);
@@ -137,7 +144,7 @@ fn kept(technique: &TechniqueResult, bytes_per_texel: u64) {
 /// Cost in bytes, lookups and passes, of maps of 256² texels with nine levels.
 fn work(results: &Results) {
     for (name, bytes, mips, lookups) in
-        [("hard", 4.0, false, 1), ("pcf", 4.0, false, 25), ("esm", 4.0, true, 1), ("csm", 32.0, true, 8)]
+        [("hard", 4.0, false, 1), ("pcf", 4.0, false, 9), ("esm", 4.0, true, 1), ("csm", 32.0, true, 8)]
     {
         let work = technique(results, name).work.as_ref().unwrap();
         let levels = if mips { 4.0 / 3.0 } else { 1.0 };

@@ -74,7 +74,7 @@ fn classes() {
     let folder = Folder::new();
     // From overhead, so that the ground is at one depth and never fails by itself.
     let small = ["layers", "--light", "0,-1,0", "--resolution", "160x120", "--size", "256"];
-    let spec = "esm.classifier=threshold,kernel=7";
+    let spec = "esm.kernel=7";
     let picture = ["render", "-t", spec, "--show", "classes", "-o", "red.png"];
     let told = folder.run(&[&picture[..], &small[..]].concat()).good();
     let share = told.split_once("assumption violated: ").unwrap().1.split_once(" %").unwrap().0;

@@ -3,8 +3,8 @@
 
 use crate::gpu::Gpu;
 use antumbra::{
-    DEPTH_FORMAT, Options, ShadowMap, Size, Technique, View,
-    technique::{self, Bias},
+    CasterMesh, DEPTH_FORMAT, Options, ShadowMap, Size, Technique, View,
+    technique::{self, Bias, Caster},
 };
 use anyhow::{Context, Result};
 use glam::{Mat4, Vec4};
@@ -23,12 +23,20 @@ pub fn visibility(gpu: &Gpu, technique: &dyn Technique, caster: f32, receivers: 
     let mut shadows =
         ShadowMap::new(&gpu.device, technique, options).with_context(|| technique::spec(technique))?;
     shadows.prepare(&gpu.queue, &[view()])?;
-    let flat = flat(gpu, caster);
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    shadows.encode(&mut encoder, |_, pass| {
-        pass.set_pipeline(&flat);
-        pass.draw(0..3, 0..1);
-    });
+    match technique.caster() {
+        Caster::Depth => {
+            let flat = flat(gpu, caster);
+            shadows.encode(&mut encoder, |_, pass| {
+                pass.set_pipeline(&flat);
+                pass.draw(0..3, 0..1);
+            });
+        }
+        Caster::Triangles(_) => {
+            let triangle = triangle(gpu, caster)?;
+            shadows.encode(&mut encoder, |view, pass| triangle.draw(view, pass));
+        }
+    }
     let answers = ask(gpu, &shadows, receivers, &mut encoder);
     gpu.finish(encoder).with_context(|| technique::spec(technique))?;
     let bytes = gpu.map(&answers)?;
@@ -45,6 +53,15 @@ fn view() -> View {
         near_over_far: 1.0,
         depth_world: 1.0,
     }
+}
+
+/// The same caster as a mesh: one triangle, whose edges are outside.
+fn triangle(gpu: &Gpu, depth: f32) -> Result<CasterMesh> {
+    let positions = [-1.5, -1.5, depth, 4.5, -1.5, depth, -1.5, 4.5, depth];
+    let buffer = |label, bytes| gpu.buffer(label, bytes, wgpu::BufferUsages::STORAGE);
+    let positions = buffer("flat caster", bytemuck::cast_slice(&positions));
+    let indices = buffer("flat caster", bytemuck::cast_slice(&[0u32, 1, 2]));
+    Ok(CasterMesh::new(&gpu.device, &positions, &indices, 0..1, Mat4::IDENTITY)?)
 }
 
 /// Draws a caster parallel to the map over all of it.
