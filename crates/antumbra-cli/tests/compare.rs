@@ -164,6 +164,7 @@ fn is_complete(report: &Path, results: &Results) {
     for t in &results.techniques {
         let i = &t.images;
         images.extend([&i.picture, &i.visibility, &i.error_hard, &i.error_light_space]);
+        images.extend(&i.classes);
     }
     for image in &images {
         assert_eq!(png_size(&report.join(image)), results.resolution, "{image}");
