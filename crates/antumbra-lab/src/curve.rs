@@ -3,7 +3,7 @@
 
 use crate::gpu::Gpu;
 use antumbra::{
-    DEPTH_FORMAT, Options, ShadowMap, Size, Technique, View,
+    CasterMesh, DEPTH_FORMAT, Options, ShadowMap, Size, Technique, View,
     technique::{self, Bias},
 };
 use anyhow::{Context, Result};
@@ -23,12 +23,17 @@ pub fn visibility(gpu: &Gpu, technique: &dyn Technique, caster: f32, receivers: 
     let mut shadows =
         ShadowMap::new(&gpu.device, technique, options).with_context(|| technique::spec(technique))?;
     shadows.prepare(&gpu.queue, &[view()])?;
-    let flat = flat(gpu, caster);
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    shadows.encode(&mut encoder, |_, pass| {
-        pass.set_pipeline(&flat);
-        pass.draw(0..3, 0..1);
-    });
+    if shadows.triangle_caster().is_some() {
+        let mesh = square(gpu, caster)?;
+        shadows.encode(&mut encoder, |view, pass| mesh.draw(view, pass));
+    } else {
+        let flat = flat(gpu, caster);
+        shadows.encode(&mut encoder, |_, pass| {
+            pass.set_pipeline(&flat);
+            pass.draw(0..3, 0..1);
+        });
+    }
     let answers = ask(gpu, &shadows, receivers, &mut encoder);
     gpu.finish(encoder).with_context(|| technique::spec(technique))?;
     let bytes = gpu.map(&answers)?;
@@ -45,6 +50,14 @@ fn view() -> View {
         near_over_far: 1.0,
         depth_world: 1.0,
     }
+}
+
+/// A caster parallel to the map, larger than it.
+fn square(gpu: &Gpu, depth: f32) -> Result<CasterMesh> {
+    let corners: [[f32; 3]; 3] = [[-2.0, -2.0, depth], [6.0, -2.0, depth], [-2.0, 6.0, depth]];
+    let positions = gpu.buffer("corners", bytemuck::cast_slice(&corners), wgpu::BufferUsages::STORAGE);
+    let indices = gpu.buffer("indices", bytemuck::cast_slice(&[0u32, 1, 2]), wgpu::BufferUsages::STORAGE);
+    Ok(CasterMesh::new(&gpu.device, &positions, &indices, 0..1, Mat4::IDENTITY)?)
 }
 
 /// Draws a caster parallel to the map over all of it.
