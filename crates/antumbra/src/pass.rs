@@ -167,8 +167,7 @@ pub(crate) fn plan(technique: &dyn Technique, device: &Capabilities, maps: &[Map
             }));
             continue;
         }
-        if let Some(table) = map.passes.iter().find_map(|p| if let Pass::Sum(t) = p { Some(t) } else { None })
-        {
+        if let [Pass::Sum(table)] = map.passes.as_slice() {
             steps.extend(sum::steps(&source, table, index, map.layers, size));
             continue;
         }

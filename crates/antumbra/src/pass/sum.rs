@@ -3,7 +3,7 @@
 //! faster than logarithmic passes, and GPUs hide the latency behind thousands of rows.
 
 use super::{Place, Slot, Step, Work, convert::Source};
-use crate::{light::Size, table::Table};
+use crate::{light::Size, shader, table::Table};
 
 /// Two steps per layer of the table.
 pub(super) fn steps(source: &Source, table: &Table, map: usize, layers: u32, size: Size) -> Vec<Step> {
@@ -16,8 +16,8 @@ pub(super) fn steps(source: &Source, table: &Table, map: usize, layers: u32, siz
         source_layers: 1,
         targets: vec![target],
     };
-    let words = words(table);
-    let columns = words.clone() + include_str!("sum/columns.wgsl");
+    // This pass knows no technique: the arithmetic alone.
+    let columns = shader::file(table.arithmetic()).to_string() + include_str!("sum/columns.wgsl");
     (0..layers)
         .flat_map(|layer| {
             let rows = include_str!("sum/rows.wgsl.in")
@@ -31,9 +31,4 @@ pub(super) fn steps(source: &Source, table: &Table, map: usize, layers: u32, siz
             ]
         })
         .collect()
-}
-
-/// Arithmetic alone, for the pass that knows no technique.
-fn words(table: &Table) -> String {
-    crate::shader::file(table.arithmetic()).to_string()
 }

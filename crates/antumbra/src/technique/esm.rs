@@ -229,9 +229,9 @@ impl Technique for Esm {
         }
         let four = self.custom == Custom::Four && self.filter.sampling != Sampling::Summed;
         match (self.classifier, four) {
-            (Classifier::None, _) => files!("esm/trusting.wgsl"),
             (Classifier::Threshold, true) => files!("esm/custom.wgsl", "esm/threshold.wgsl"),
-            (Classifier::Threshold, false) => files!("esm/clamped.wgsl", "esm/threshold.wgsl"),
+            // A clamp gives what failing pixels get without custom filtering.
+            (Classifier::None, _) | (Classifier::Threshold, false) => files!("esm/clamped.wgsl", "esm/threshold.wgsl"),
             (Classifier::ZMax, true) => files!("esm/custom.wgsl", "esm/zmax.wgsl"),
             (Classifier::ZMax, false) => files!("esm/clamped.wgsl", "esm/zmax.wgsl"),
         }

@@ -135,8 +135,8 @@ impl Technique for Lvsm {
     fn wgsl(&self) -> &'static str {
         match self.choose {
             Choose::Least => concat!(include_str!("lvsm.wgsl"), include_str!("lvsm/least.wgsl")),
-            Choose::Receiver => concat!(include_str!("lvsm.wgsl"), include_str!("lvsm/receiver.wgsl")),
-            Choose::Blend => concat!(include_str!("lvsm.wgsl"), include_str!("lvsm/blend.wgsl")),
+            Choose::Receiver => concat!(include_str!("lvsm.wgsl"), include_str!("lvsm/pick.wgsl"), include_str!("lvsm/receiver.wgsl")),
+            Choose::Blend => concat!(include_str!("lvsm.wgsl"), include_str!("lvsm/pick.wgsl"), include_str!("lvsm/blend.wgsl")),
         }
     }
     fn uniforms(&self) -> Vec<Uniform> {

@@ -146,10 +146,7 @@ impl Technique for Vsm {
         vec![Binding::Map(0), Binding::Sampler]
     }
     fn wgsl(&self) -> &'static str {
-        match self.slope_of {
-            SlopeOf::Receiver => concat!(include_str!("vsm.wgsl"), include_str!("vsm/receiver.wgsl")),
-            SlopeOf::Caster => concat!(include_str!("vsm.wgsl"), include_str!("vsm/caster.wgsl")),
-        }
+        include_str!("vsm.wgsl")
     }
     fn uniforms(&self) -> Vec<Uniform> {
         let [least_variance, rounding] = self.floor();
@@ -161,7 +158,9 @@ impl Technique for Vsm {
         ]
     }
     fn constants(&self) -> Vec<Constant> {
-        self.filter.constants(&self.values(None), Combine::Mean)
+        let receiver = u32::from(self.slope_of == SlopeOf::Receiver);
+        let own = Constant::Count("vsm_slope_of_receiver", receiver);
+        std::iter::once(own).chain(self.filter.constants(&self.values(None), Combine::Mean)).collect()
     }
     fn parts(&self, device: &Capabilities) -> Vec<&'static str> {
         self.filter.parts(device, &self.values(Some(device)), Combine::Mean)

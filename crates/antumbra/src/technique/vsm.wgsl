@@ -1,5 +1,8 @@
 //! needs chebyshev lookup
 
+/// 1 if the receiver's own slope widens the least variance, 0 if the casters' is in the square.
+const vsm_slope_of_receiver: u32 = 1;
+
 /// Depth and its square of a neighbourhood; the square gains a quarter of the squared slope, the
 /// variance of a plane within one texel, times `slope`.
 fn vsm_encode_sloped(depths: mat3x3f, layer: u32, least_variance: f32, rounding: f32, reduction: f32, slope: f32) -> vec4f {
@@ -20,4 +23,14 @@ fn vsm_encode(depth: f32, layer: u32, least_variance: f32, rounding: f32, reduct
 fn vsm_bound(depth: f32, moments: vec2f, least_variance: f32, rounding: f32, reduction: f32) -> f32 {
     let least = max(least_variance, rounding * moments.y);
     return chebyshev_reduce(chebyshev_bound(depth, moments, least), reduction);
+}
+
+/// One filtered lookup [Donnelly & Lauritzen 2006].
+fn vsm_visibility(map: LookupMap, map_sampler: sampler, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f, least_variance: f32, rounding: f32, reduction: f32, slope: f32) -> f32 {
+    let moments = lookup_filtered(map, map_sampler, uv, view, ddx, ddy).xy;
+    var least = least_variance;
+    if vsm_slope_of_receiver == 1u {
+        least += slope * chebyshev_slope(plane, vec2f(textureDimensions(map)));
+    }
+    return vsm_bound(depth, moments, least, rounding, reduction);
 }

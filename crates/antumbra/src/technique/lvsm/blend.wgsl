@@ -1,11 +1,4 @@
 
-/// Bound of interval `i` alone, from one lookup.
-fn lvsm_pick(map: LookupMap, map_sampler: sampler, uv: vec2f, view: u32, depth: f32, i: u32, ddx: vec2f, ddy: vec2f, overlap: f32, least_variance: f32) -> f32 {
-    let layers = (lvsm_intervals + 1u) / 2u;
-    let moments = lookup_filtered(map, map_sampler, uv, view * layers + i / 2u, ddx, ddy);
-    return lvsm_one(depth, select(moments.xy, moments.zw, i % 2u == 1u), i, overlap, least_variance);
-}
-
 /// The bound of the interval that contains the receiver; at its start, over the width of the overlap,
 /// mixed with that of the interval before: at most two lookups.
 fn lvsm_visibility(map: LookupMap, map_sampler: sampler, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f, overlap: f32, least_variance: f32, slope: f32, reduction: f32) -> f32 {
