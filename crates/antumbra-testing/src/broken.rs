@@ -2,7 +2,7 @@
 
 use antumbra::{
     Capabilities, Parameter, Technique, Unsupported, technique,
-    technique::{Bias, Binding, Caster, Class, Constant, DepthSpace, Map, Page, Pass, Uniform},
+    technique::{Bias, Binding, Caster, Class, Constant, DepthSpace, Map, Page, Pass, Uniform, Width},
 };
 
 /// A technique with one thing wrong; everything else is that of `inner`.
@@ -90,6 +90,9 @@ impl Technique for Broken {
     fn uniforms(&self) -> Vec<Uniform> {
         let wrong = |u: Uniform| self.uniform.filter(|w| w.0 == u.0).unwrap_or(u);
         self.inner.uniforms().into_iter().map(wrong).collect()
+    }
+    fn widths(&self) -> Vec<(&'static str, Width)> {
+        self.inner.widths()
     }
     fn constants(&self) -> Vec<Constant> {
         let mut constants = self.inner.constants();

@@ -2,7 +2,7 @@
 
 use crate::{
     capabilities::Capabilities,
-    kernel::{Kernel, Weights},
+    kernel::{Kernel, Weights, Width},
     parameter::{Field, Parameter, choice},
     table::{MOST_SUMMED, Table},
     technique::{Combine, Constant, Encode, Map, Pass},
@@ -44,6 +44,10 @@ pub struct Values {
 pub struct Filter {
     /// Width of the blur in texels, odd, 1 (none) to 31; of the box with [`Sampling::Summed`], to 255.
     pub kernel: u32,
+    /// Width of the blur in world units (under a spot, at unit distance), the same in every view and
+    /// cascade as long as it is no more than `kernel` texels; 0 for `kernel` texels. Texels alone with
+    /// [`Sampling::Summed`].
+    pub width: f32,
     /// Shape of the blur.
     pub weights: Weights,
     /// Standard deviation of the Gaussian in texels, 0 for [`Kernel::usual_sigma`].
@@ -58,6 +62,7 @@ impl Default for Filter {
     fn default() -> Self {
         Self {
             kernel: 3,
+            width: 0.0,
             weights: Weights::Gaussian,
             sigma: 0.0,
             sampling: Sampling::Trilinear,
@@ -69,13 +74,20 @@ impl Default for Filter {
 impl Filter {
     /// The rows of these settings in a technique's parameter table.
     pub fn parameters(&mut self) -> Vec<Parameter<'_>> {
-        let widest = if self.sampling == Sampling::Summed { MOST_SUMMED } else { 31 };
+        let (widest, longest) =
+            if self.sampling == Sampling::Summed { (MOST_SUMMED, 0.0) } else { (31, 1e6) };
         vec![
             Parameter::new(
                 "kernel",
                 "texels",
                 Field::Odd(&mut self.kernel, 1..=widest),
                 "width of the blur, 1 is none; up to 255, and a box, with sampling=summed",
+            ),
+            Parameter::new(
+                "width",
+                "world units",
+                Field::Number(&mut self.width, 0.0..=longest),
+                "width of the blur in the world, at most `kernel` texels; 0: `kernel` texels; not with sampling=summed",
             ),
             Parameter::new("weights", "", Field::Choice(&mut self.weights), "shape of the blur"),
             Parameter::new(
@@ -97,7 +109,10 @@ impl Filter {
     /// The blur and mips that these settings ask for.
     #[must_use]
     pub fn passes(&self, combine: Combine) -> Vec<Pass> {
-        let kernel = || Kernel::new(self.weights, self.kernel, self.sigma);
+        let kernel = || match self.width {
+            w if w > 0.0 => Kernel::adaptive(self.weights, self.width(), self.sigma),
+            _ => Kernel::new(self.weights, self.kernel, self.sigma),
+        };
         let blur = (self.kernel > 1).then(|| Pass::Blur(kernel(), combine));
         let mips = matches!(self.sampling, Sampling::Trilinear | Sampling::Anisotropic);
         blur.into_iter().chain(mips.then_some(Pass::Mips(combine))).collect()
@@ -173,6 +188,12 @@ impl Filter {
     #[must_use]
     pub fn lookups(&self, values: &Values) -> u32 {
         self.table(values).map_or(1, |table| 16 * table.parts())
+    }
+
+    /// Width of the blur in each view.
+    #[must_use]
+    pub fn width(&self) -> Width {
+        Width { texels: self.kernel as f32, world: self.width }
     }
 
     /// See [`Technique::reach_texels`](crate::Technique::reach_texels).

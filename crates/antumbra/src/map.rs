@@ -193,7 +193,7 @@ impl ShadowMap {
         let textures = Textures::new(device, &capabilities, &maps, options, depth, compares);
         let bias = options.bias.unwrap_or_else(|| technique.bias());
         bias.check()?;
-        let uniforms = Uniforms::new(device, technique, bias, options);
+        let uniforms = Uniforms::new(device, technique, &maps, bias, options);
         let jitter = technique.jitter();
         let steps = pass::plan(technique, &capabilities, &maps, options.size);
         let draws = (0..options.views)

@@ -184,8 +184,10 @@ pub(crate) fn receiver(
     let mut shader = ShaderText::library(technique, device);
     shader.need("receiver", &[]);
     let name = technique.page().name;
+    let widths: String =
+        technique.widths().iter().map(|(width, _)| format!(", width_{width}: f32")).collect();
     let mut glue = format!(
-        "struct ShadowView {{ clip_from_world: mat4x4f, depth_plane: vec4f, to_light: vec4f, texel_world: f32, near_over_far: f32, reach_x: f32, reach_y: f32 }}\n\
+        "struct ShadowView {{ clip_from_world: mat4x4f, depth_plane: vec4f, to_light: vec4f, texel_world: f32, near_over_far: f32, reach_x: f32, reach_y: f32{widths} }}\n\
          struct ShadowUniforms {{\n    views: array<ShadowView, {views}>,\n    view_count: u32, width: f32, height: f32,\n    constant_texels: f32, slope_texels: f32, normal_offset_texels: f32,\n    receiver_plane: f32, constant_depth: f32,\n"
     );
     for (uniform, _) in technique.uniforms() {
@@ -203,8 +205,9 @@ pub(crate) fn receiver(
         );
         let _ = write!(arguments, "shadow_binding_{i}, ");
     }
-    let settings: String =
-        technique.uniforms().iter().map(|(uniform, _)| format!(", shadow.setting_{uniform}")).collect();
+    let uniforms = technique.uniforms().into_iter().map(|(uniform, _)| format!(", shadow.setting_{uniform}"));
+    let widths = technique.widths().into_iter().map(|(width, _)| format!(", (*light).width_{width}"));
+    let settings: String = uniforms.chain(widths).collect();
     let (depth, slopes, scale) = match technique.depth_space() {
         DepthSpace::Raster => ("ndc.z", "vec2f(s.z, t.z)", "raster_slope(linear, (*light).near_over_far)"),
         DepthSpace::Linear => (

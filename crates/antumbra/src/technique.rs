@@ -15,6 +15,8 @@ use crate::{
 use glam::Vec2;
 use std::fmt::Debug;
 
+pub use crate::kernel::Width;
+
 /// How a technique gets from depth to visibility.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Family {
@@ -248,7 +250,7 @@ pub enum DepthSpace {
 ///
 /// Its WGSL defines, for a technique named `x`,
 /// `x_visibility(bindings…, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f,
-/// ddy: vec2f, uniforms…) -> f32`: `uv` in the map, y down; `depth` of the receiver, bias applied,
+/// ddy: vec2f, uniforms…, widths…) -> f32`: `uv` in the map, y down; `depth` of the receiver, bias applied,
 /// in [`Technique::depth_space`]; `plane`, the depth that the receiver's plane gains per unit of
 /// `uv` (times [`Bias::receiver_plane`] in the comparison family); `ddx`, `ddy`, the change of `uv` from this pixel to the next. The result is 0 (in shadow)
 /// to 1 (lit).
@@ -283,6 +285,10 @@ pub trait Technique: Debug + Send + Sync {
     fn wgsl(&self) -> &'static str;
     /// Run-time settings of its WGSL functions.
     fn uniforms(&self) -> Vec<Uniform> {
+        Vec::new()
+    }
+    /// Kernel widths that its visibility function takes, after the uniforms, in texels of the view.
+    fn widths(&self) -> Vec<(&'static str, Width)> {
         Vec::new()
     }
     /// Compile-time settings of its WGSL.

@@ -64,7 +64,7 @@ fn uniforms(_: &Gpu) {
 fn settings_in_public_fields(gpu: &Gpu) {
     let filter = |f: Filter| Esm { filter: f, ..Esm::default() };
     let summed = |kernel| Filter { kernel, sampling: Sampling::Summed, ..Filter::default() };
-    let cases: [(Box<dyn Technique>, &[&str]); 17] = [
+    let cases: [(Box<dyn Technique>, &[&str]); 20] = [
         (Box::new(Esm { c: 88.0, ..Esm::default() }), &["esm.c", "88", "0 to 87"]),
         (Box::new(Esm { c: f32::NAN, ..Esm::default() }), &["esm.c", "NaN"]),
         (Box::new(filter(Filter { kernel: 4, ..Filter::default() })), &["esm.kernel", "4", "odd, 1 to 31"]),
@@ -75,6 +75,12 @@ fn settings_in_public_fields(gpu: &Gpu) {
             &["esm.anisotropy", "0", "1 to 16"],
         ),
         (Box::new(filter(Filter { kernel: 0, ..Filter::default() })), &["esm.kernel", "0"]),
+        (
+            Box::new(filter(Filter { width: -0.1, ..Filter::default() })),
+            &["esm.width", "-0.1", "0 to 1000000"],
+        ),
+        (Box::new(filter(Filter { width: f32::NAN, ..Filter::default() })), &["esm.width", "NaN"]),
+        (Box::new(filter(Filter { width: 0.1, ..summed(5) })), &["esm.width", "0.1", "0 to 0"]),
         (Box::new(filter(summed(257))), &["esm.kernel", "257", "odd, 1 to 255"]),
         (Box::new(Esm { c: 80.0, ..filter(summed(3)) }), &["esm.c", "80", "0 to 72"]),
         (Box::new(Esm { epsilon: -0.01, ..Esm::default() }), &["esm.epsilon", "-0.01", "0 to 10"]),

@@ -324,7 +324,35 @@ fn fallbacks_agree(gpu: &Gpu, technique: &dyn Technique) -> Result<(), String> {
     Ok(())
 }
 
-const LAWS: [(&str, Law); 8] = [
+/// A width in the world that is so many texels of the view is as good as so many texels.
+fn widths_in_the_world_are_texels_of_the_view(gpu: &Gpu, technique: &dyn Technique) -> Result<(), String> {
+    let adapts = technique.boxed().parameters().iter().any(|p| p.name == "width" && p.allowed() != "0 to 0");
+    if !adapts {
+        return Ok(());
+    }
+    let depth = depth_texture(gpu, SIZE, blocks(12, 3));
+    // Away from the border, within which the wider margin makes a difference.
+    let inner = |mut r: Receiver| {
+        r.uv = Vec2::splat(0.3) + 0.4 * r.uv;
+        r
+    };
+    let receivers: Vec<Receiver> = receivers(13, 2048).into_iter().map(inner).collect();
+    let ask = |kernel: &str, texels: f32| {
+        let mut technique = technique.boxed();
+        try_set(technique.as_mut(), "kernel", kernel);
+        try_set(technique.as_mut(), "width", &(texels * common::view(SIZE).texel_world).to_string());
+        visibility(gpu, &shadow_map(gpu, technique.as_ref(), &depth, SIZE.into()), &receivers)
+    };
+    let (fixed, adapted) = (ask("5", 0.0), ask("9", 5.0));
+    // Sums in another order; moments magnify their last bits.
+    let has = |uniform| technique.uniforms().iter().any(|(name, _)| *name == uniform);
+    let tolerance = if has("least_variance") || has("moment_bias") { 5e-3 } else { 1e-4 };
+    all_of(receivers.iter().zip(fixed.iter().zip(adapted).map(|(f, a)| f - a)), |_, difference| {
+        difference.abs() <= tolerance
+    })
+}
+
+const LAWS: [(&str, Law); 9] = [
     ("visibility within [0,1]", stays_within_zero_and_one),
     ("lit without casters", is_lit_without_casters),
     ("dark behind a blocker", is_dark_behind_a_blocker),
@@ -333,6 +361,7 @@ const LAWS: [(&str, Law); 8] = [
     ("filtering keeps the mean", filtering_keeps_the_mean),
     ("the same in any view", views_do_not_matter),
     ("fallbacks agree", fallbacks_agree),
+    ("a width in the world is texels of the view", widths_in_the_world_are_texels_of_the_view),
 ];
 
 /// For each law, what it must reject.
@@ -452,6 +481,11 @@ fn broken() -> Vec<(&'static str, Law, Broken)> {
                 "if !packing_holds(words) {\n        return spsm_lit;",
                 "if !packing_holds(words) {\n        return spsm_shadowed;",
             ),
+        ),
+        (
+            "other weights where the width is fixed",
+            widths_in_the_world_are_texels_of_the_view,
+            Broken { weights: 0.97, ..Broken::new("vsm") },
         ),
         ("a blur that brightens", filtering_keeps_the_mean, Broken { weights: 1.01, ..Broken::new("vsm") }),
         (

@@ -36,7 +36,8 @@ pub(super) fn device(
         return Err(Unsupported::Layers { views: options.views, layers, max });
     }
     let room = limits.max_uniform_buffer_binding_size;
-    let most = room.saturating_sub(uniforms::bytes(technique, 0)) / uniforms::VIEW_BYTES;
+    let most =
+        room.saturating_sub(uniforms::bytes(technique, 0)) / uniforms::view_bytes(technique.widths().len());
     if u64::from(options.views) > most {
         return Err(Unsupported::Feature {
             technique: technique.page().name.into(),

@@ -143,7 +143,7 @@ impl Pipelines {
         })
     }
 
-    /// Binding 0 is the source; 1 the settings of converting; 2 a nearest sampler; 3 a storage target.
+    /// Binding 0 is the source; 1 the settings of converting and adaptive blurs; 2 a nearest sampler; 3 a storage target.
     fn layout(&self, step: &Step, formats: &[TextureFormat]) -> BindGroupLayout {
         use wgpu::{SamplerBindingType, TextureSampleType, TextureViewDimension as Dimension};
         let texture = |sample_type, view_dimension| BindingType::Texture {
@@ -162,7 +162,7 @@ impl Pipelines {
             (Slot::Casters | Slot::Cast(..), _) => {
                 (texture(TextureSampleType::Depth, Dimension::D2), Some(uniform), Some(sampler))
             }
-            (_, Work::Draw) => (texture(floats, Dimension::D2Array), None, Some(sampler)),
+            (_, Work::Draw) => (texture(floats, Dimension::D2Array), Some(uniform), Some(sampler)),
             (_, Work::Lanes(_)) => (texture(TextureSampleType::Uint, Dimension::D2Array), None, None),
         };
         let target = |format: &TextureFormat| BindingType::StorageTexture {
@@ -185,7 +185,7 @@ impl Pipelines {
         })
     }
 
-    /// What a step reads and stores; `uniforms` are those of converting.
+    /// What a step reads and stores; `uniforms` are those of converting and adaptive blurs.
     pub(super) fn bind(
         &self,
         pipeline: &Pipeline,
@@ -197,7 +197,7 @@ impl Pipelines {
         let sampler = Some(BindingResource::Sampler(&self.nearest));
         let (uniforms, sampler) = match (step.source.slot, step.work) {
             (Slot::Casters | Slot::Cast(..), _) => (Some(uniforms), sampler),
-            (_, Work::Draw) => (None, sampler),
+            (_, Work::Draw) => (Some(uniforms), sampler),
             (_, Work::Lanes(_)) => (None, None),
         };
         let stored = matches!(step.work, Work::Lanes(_)).then_some(BindingResource::TextureView(target));

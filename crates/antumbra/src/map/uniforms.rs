@@ -2,8 +2,9 @@
 
 use super::{Options, memory::MemoryItem};
 use crate::{
+    kernel::{Adaptive, MOST_SIDE, Width},
     light::{Size, View},
-    technique::{Bias, Technique},
+    technique::{Bias, Map, Pass, Technique},
 };
 
 /// Rust side of `ShadowView` in the receiver's glue.
@@ -19,7 +20,8 @@ struct ShadowView {
     reach_y: f32,
 }
 
-pub(super) const VIEW_BYTES: u64 = size_of::<ShadowView>() as u64;
+/// Without widths, which follow it.
+const VIEW_BYTES: u64 = size_of::<ShadowView>() as u64;
 
 /// Both buffers and the bytes that are written to them each frame.
 #[derive(Debug)]
@@ -34,12 +36,17 @@ pub(super) struct Uniforms {
     scalars: Vec<f32>,
     settings: usize,
     reach: [f32; 2],
+    /// Widths that each view's part of the receivers' buffer ends with.
+    widths: Vec<Width>,
+    /// The blur whose weights each view's convert settings begin with.
+    blur: Option<Adaptive>,
 }
 
 impl Uniforms {
     pub(super) fn new(
         device: &wgpu::Device,
         technique: &dyn Technique,
+        maps: &[Map],
         bias: Bias,
         options: &Options,
     ) -> Self {
@@ -56,7 +63,12 @@ impl Uniforms {
             })
         };
         let alignment = u64::from(device.limits().min_uniform_buffer_offset_alignment);
-        let stride = (4 * (1 + settings as u64)).next_multiple_of(16).next_multiple_of(alignment);
+        let stride = convert_bytes(settings).next_multiple_of(alignment);
+        let passes = maps.iter().flat_map(|map| &map.passes);
+        let blur = passes.filter_map(|pass| match pass {
+            Pass::Blur(kernel, _) => kernel.adaptive,
+            Pass::Mips(_) | Pass::Sum(_) => None,
+        });
         let receiver = buffer("shadow receiver", bytes(technique, options.views));
         Self {
             convert: buffer("shadow convert", room as u64 * stride),
@@ -68,18 +80,22 @@ impl Uniforms {
             settings,
             // A lookup within half a texel of the border would read beyond it; so does a kernel.
             reach: [1.0 / width, 1.0 / height].map(|texel| (technique.reach_texels() * texel).min(0.499)),
+            widths: technique.widths().into_iter().map(|(_, width)| width).collect(),
+            blur: blur.into_iter().next(),
         }
     }
 
     pub(super) fn write(&mut self, queue: &wgpu::Queue, views: &[View]) {
-        receiver_bytes(&mut self.bytes, views, self.room, self.reach, &self.scalars);
+        receiver_bytes(&mut self.bytes, views, self.room, self.reach, &self.widths, &self.scalars);
         queue.write_buffer(&self.receiver, 0, &self.bytes);
 
         let settings = &self.scalars[self.scalars.len() - self.settings..];
         self.bytes.clear();
         for (i, view) in views.iter().enumerate() {
             self.bytes.resize(i * self.stride as usize, 0);
-            self.bytes.extend_from_slice(&view.near_over_far.to_ne_bytes());
+            let (side, reach) = self.blur.map_or(([0.0; MOST_SIDE], 0), |blur| blur.side(view.texel_world));
+            self.bytes.extend_from_slice(bytemuck::cast_slice(&side));
+            self.bytes.extend_from_slice(bytemuck::cast_slice(&[reach as f32, view.near_over_far]));
             self.bytes.extend_from_slice(bytemuck::cast_slice(settings));
         }
         queue.write_buffer(&self.convert, 0, &self.bytes);
@@ -93,7 +109,7 @@ impl Uniforms {
         wgpu::BindingResource::Buffer(wgpu::BufferBinding {
             buffer: &self.convert,
             offset: u64::from(view) * self.stride,
-            size: std::num::NonZeroU64::new((4 * (1 + self.settings as u64)).next_multiple_of(16)),
+            size: std::num::NonZeroU64::new(convert_bytes(self.settings)),
         })
     }
 
@@ -108,7 +124,17 @@ impl Uniforms {
 /// Size of the receivers' buffer: views, their count, seven scalars, settings.
 pub(super) fn bytes(technique: &dyn Technique, views: u32) -> u64 {
     let scalars = 4 * (8 + technique.uniforms().len() as u64);
-    (u64::from(views) * VIEW_BYTES + scalars).next_multiple_of(16)
+    (u64::from(views) * view_bytes(technique.widths().len()) + scalars).next_multiple_of(16)
+}
+
+/// Size of one view's part of the receivers' buffer.
+pub(super) fn view_bytes(widths: usize) -> u64 {
+    (VIEW_BYTES + 4 * widths as u64).next_multiple_of(16)
+}
+
+/// Size of one view's convert settings: blur weights and reach, the view's ratio, settings.
+fn convert_bytes(settings: usize) -> u64 {
+    (4 * (MOST_SIDE as u64 + 2 + settings as u64)).next_multiple_of(16)
 }
 
 /// What follows `views` and `view_count`: size, bias, settings.
@@ -127,10 +153,19 @@ fn scalars(technique: &dyn Technique, bias: Bias, size: Size) -> Vec<f32> {
 }
 
 /// `ShadowUniforms` of the receiver's glue, with blank views up to `room`.
-fn receiver_bytes(bytes: &mut Vec<u8>, views: &[View], room: usize, reach: [f32; 2], scalars: &[f32]) {
+fn receiver_bytes(
+    bytes: &mut Vec<u8>,
+    views: &[View],
+    room: usize,
+    reach: [f32; 2],
+    widths: &[Width],
+    scalars: &[f32],
+) {
     let blank = <ShadowView as bytemuck::Zeroable>::zeroed();
+    let stride = view_bytes(widths.len()) as usize;
     bytes.clear();
     for i in 0..room {
+        bytes.resize(i * stride, 0);
         let view = views.get(i).map_or(blank, |v| ShadowView {
             clip_from_world: v.clip_from_world.to_cols_array_2d(),
             depth_plane: v.depth_plane.to_array(),
@@ -141,7 +176,12 @@ fn receiver_bytes(bytes: &mut Vec<u8>, views: &[View], room: usize, reach: [f32;
             reach_y: reach[1],
         });
         bytes.extend_from_slice(bytemuck::bytes_of(&view));
+        for width in widths {
+            let texels = views.get(i).map_or(0.0, |view| width.in_texels(view.texel_world));
+            bytes.extend_from_slice(&texels.to_ne_bytes());
+        }
     }
+    bytes.resize(room * stride, 0);
     bytes.extend_from_slice(&(views.len() as u32).to_ne_bytes());
     bytes.extend_from_slice(bytemuck::cast_slice(scalars));
 }

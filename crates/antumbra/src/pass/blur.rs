@@ -2,7 +2,7 @@
 //!
 //! The taps are written out with their weights as literals and fetched through a nearest sampler,
 //! whose clamping repeats the edge: the form that software drivers compile best, and no worse on
-//! GPUs.
+//! GPUs. Kernels whose width depends on the view loop over weights from a uniform buffer.
 
 use super::{Place, Run, Slot, Step, combine, targets};
 use crate::{kernel::Kernel, technique::Combine};
@@ -27,16 +27,29 @@ pub(super) fn columns(kernel: &Kernel, how: Combine, run: Run) -> impl Iterator<
     })
 }
 
-fn shader(kernel: &Kernel, how: Combine, count: u32, axis: &str) -> String {
-    let mut taps = String::new();
-    for (offset, weight) in kernel.offsets() {
-        let at = format!("(position.xy + {offset:?} * step) * texel");
-        for i in 0..count {
-            taps += &format!(
-                "    sum_{i} = combine_add(sum_{i}, {weight:?}, textureSampleLevel(source, nearest, {at}, {i}, 0.0));\n"
-            );
-        }
+/// Statements for all taps: `tap` gets WGSL of a tap's distance from the middle in texels, and of its
+/// weight. `uniforms` holds the weights of an adaptive kernel.
+pub(super) fn taps(kernel: &Kernel, uniforms: &str, tap: impl Fn(&str, &str) -> String) -> String {
+    if kernel.adaptive.is_none() {
+        return kernel
+            .offsets()
+            .map(|(offset, weight)| tap(&format!("{offset:?}"), &format!("{weight:?}")))
+            .collect();
     }
+    format!(
+        "    for (var i = -i32({uniforms}.reach); i <= i32({uniforms}.reach); i += 1) {{\n\
+             let weight = {uniforms}.side[abs(i) / 4][abs(i) % 4];\n{}    }}\n",
+        tap("f32(i)", "weight")
+    )
+}
+
+fn shader(kernel: &Kernel, how: Combine, count: u32, axis: &str) -> String {
+    let taps = taps(kernel, "blur", |offset, weight| {
+        let at = format!("(position.xy + {offset} * step) * texel");
+        (0..count).map(|i| format!(
+            "    sum_{i} = combine_add(sum_{i}, {weight}, textureSampleLevel(source, nearest, {at}, {i}, 0.0));\n"
+        )).collect()
+    });
     let start: String = (0..count).map(|i| format!("    var sum_{i} = combine_none();\n")).collect();
     let stores: String =
         (0..count).map(|i| format!("    targets.layer_{i} = combine_result(sum_{i});\n")).collect();

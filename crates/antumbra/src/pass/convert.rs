@@ -1,6 +1,6 @@
 //! From the casters' depth to what a technique keeps, alone or fused with the rows of a blur.
 
-use super::{Place, Run, Slot, Step, combine, targets};
+use super::{Place, Run, Slot, Step, blur, combine, targets};
 use crate::{
     capabilities::Capabilities,
     kernel::Kernel,
@@ -54,15 +54,15 @@ impl Source {
     pub(super) fn rows(&self, kernel: &Kernel, how: Combine, run: Run) -> Step {
         let mut body: String =
             layers(run).map(|(i, _)| format!("    var sum_{i} = combine_none();\n")).collect();
-        for (offset, weight) in kernel.offsets() {
-            body += &format!("    source = convert_source(position.xy + vec2f({offset:?}, 0.0));\n");
-            for (i, layer) in layers(run) {
-                body += &format!(
-                    "    sum_{i} = combine_add(sum_{i}, {weight:?}, convert_layer(source, {layer}u));\n"
-                );
-            }
-        }
-        body = body.replacen("    source =", "    var source =", 1);
+        body += &blur::taps(kernel, "convert", |offset, weight| {
+            let sums = layers(run).map(|(i, layer)| {
+                format!("    sum_{i} = combine_add(sum_{i}, {weight}, convert_layer(source, {layer}u));\n")
+            });
+            format!(
+                "    {{\n    let source = convert_source(position.xy + vec2f({offset}, 0.0));\n{}    }}\n",
+                sums.collect::<String>()
+            )
+        });
         for (i, _) in layers(run) {
             body += &format!("    targets.layer_{i} = combine_result(sum_{i});\n");
         }

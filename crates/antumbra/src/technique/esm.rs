@@ -19,6 +19,7 @@ use crate::{
     capabilities::Capabilities,
     error::Unsupported,
     filter::{Filter, Sampling, Values},
+    kernel::Width,
     parameter::{Field, Parameter, choice},
 };
 use wgpu::TextureFormat;
@@ -237,13 +238,11 @@ impl Technique for Esm {
         }
     }
     fn uniforms(&self) -> Vec<Uniform> {
-        let half_kernel = 0.5 * (self.filter.kernel as f32 - 1.0);
-        vec![
-            ("c", self.steepness()),
-            ("epsilon", self.epsilon),
-            ("offset", self.offset),
-            ("half_kernel", half_kernel),
-        ]
+        vec![("c", self.steepness()), ("epsilon", self.epsilon), ("offset", self.offset)]
+    }
+    fn widths(&self) -> Vec<(&'static str, Width)> {
+        let kernel = (self.classifier == Classifier::ZMax).then(|| ("kernel", self.filter.width()));
+        kernel.into_iter().collect()
     }
     fn constants(&self) -> Vec<Constant> {
         let own = Constant::Count("esm_logarithms", u32::from(self.is_logarithmic()));

@@ -4,7 +4,7 @@
 const esm_logarithms: u32 = 0;
 
 /// What is stored of linear depth: e^(c z) [Annen et al. 2008, Eq. 3], or its logarithm over c.
-fn esm_encode(depth: f32, layer: u32, c: f32, epsilon: f32, offset: f32, half_kernel: f32) -> vec4f {
+fn esm_encode(depth: f32, layer: u32, c: f32, epsilon: f32, offset: f32) -> vec4f {
     if esm_logarithms == 1u {
         return vec4f(depth, 0.0, 0.0, 0.0);
     }

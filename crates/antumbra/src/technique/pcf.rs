@@ -75,7 +75,7 @@ impl Pcf {
     fn bell(&self) -> [f32; 2] {
         let sigma = match self.sigma {
             s if s > 0.0 => f64::from(s),
-            _ => Kernel::usual_sigma(self.kernel),
+            _ => Kernel::usual_sigma(self.kernel as f32),
         };
         let falloff = match self.weights {
             Weights::Box => 0.0,

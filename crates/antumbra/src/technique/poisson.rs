@@ -10,10 +10,11 @@
 //!
 //! Vogel 1979, "A better way to construct the sunflower head"; Jimenez 2014 (noise).
 
-use super::{Bias, Binding, Constant, DepthSpace, Family, Map, Page, Technique, Uniform};
+use super::{Bias, Binding, Constant, DepthSpace, Family, Map, Page, Technique};
 use crate::{
     capabilities::Capabilities,
     error::Unsupported,
+    kernel::Width,
     parameter::{Field, Parameter, choice},
     precision::Precision,
 };
@@ -35,6 +36,9 @@ choice! {
 pub struct Poisson {
     /// Diameter of the disk in texels, 0 to 32.
     pub kernel: f32,
+    /// Its diameter in world units (under a spot, at unit distance), at most `kernel` texels; 0 for
+    /// `kernel` texels.
+    pub width: f32,
     /// Number of lookups, 4 to 64.
     pub points: u32,
     /// Whether the disk turns.
@@ -45,7 +49,7 @@ pub struct Poisson {
 
 impl Default for Poisson {
     fn default() -> Self {
-        Self { kernel: 3.0, points: 16, spin: Spin::Noise, precision: Precision::Float32 }
+        Self { kernel: 3.0, width: 0.0, points: 16, spin: Spin::Noise, precision: Precision::Float32 }
     }
 }
 
@@ -61,6 +65,12 @@ impl Technique for Poisson {
     fn parameters(&mut self) -> Vec<Parameter<'_>> {
         vec![
             Parameter::new("kernel", "texels", Field::Number(&mut self.kernel, 0.0..=32.0), "diameter of the disk"),
+            Parameter::new(
+                "width",
+                "world units",
+                Field::Number(&mut self.width, 0.0..=1e6),
+                "diameter of the disk in the world, at most `kernel` texels; 0: `kernel` texels",
+            ),
             Parameter::new("points", "lookups", Field::Count(&mut self.points, 4..=64), "bilinear lookups in the disk"),
             Parameter::new("spin", "", Field::Choice(&mut self.spin), "the same disk everywhere, or turned from pixel to pixel"),
             self.precision.parameter(),
@@ -75,8 +85,8 @@ impl Technique for Poisson {
     fn wgsl(&self) -> &'static str {
         include_str!("poisson.wgsl")
     }
-    fn uniforms(&self) -> Vec<Uniform> {
-        vec![("radius", self.kernel / 2.0)]
+    fn widths(&self) -> Vec<(&'static str, Width)> {
+        vec![("diameter", Width { texels: self.kernel, world: self.width })]
     }
     fn constants(&self) -> Vec<Constant> {
         let centre = centre(self.points).as_vec2().to_array().to_vec();

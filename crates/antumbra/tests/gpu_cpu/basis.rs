@@ -19,7 +19,7 @@ pub(crate) fn esm_encodes_and_bounds(gpu: &Gpu) {
         row([z, d, c, (c * z).exp()])
     });
     let body = "
-        put(0u, esm_encode(take(0u), 0u, take(2u), 0.0, 0.0, 0.0).x);
+        put(0u, esm_encode(take(0u), 0u, take(2u), 0.0, 0.0).x);
         put(1u, clamp(esm_ratio(take(1u), take(3u), take(2u)), 0.0, 1.0));";
     let found = run::<2>(gpu, &shadows, body, &rows);
     let encode = |factor: f64| {
@@ -45,7 +45,7 @@ pub(crate) fn esm_of_logarithms(gpu: &Gpu) {
         row([z, z + 0.01 * behind, c])
     });
     let body = "
-        put(0u, esm_encode(take(0u), 0u, take(2u), 0.0, 0.0, 0.0).x);
+        put(0u, esm_encode(take(0u), 0u, take(2u), 0.0, 0.0).x);
         put(1u, esm_ratio(take(1u), take(0u), take(2u)));";
     let found = run::<2>(gpu, &shadows, body, &rows);
     compare(&rows, &found, |r| ([r[0]], 0.0)).unwrap();

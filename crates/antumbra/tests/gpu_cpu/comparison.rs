@@ -248,7 +248,7 @@ pub(crate) fn poisson_is_the_mean_of_its_disk(gpu: &Gpu) {
     let error = sampler_error(gpu);
     for spin in [Spin::Fixed, Spin::Noise] {
         let poisson = technique::Poisson { points: 11, spin, ..technique::Poisson::default() };
-        let found = ask(gpu, &poisson, ", 2.5", &rows);
+        let found = ask(gpu, &poisson, ", 5.0", &rows);
         let disk = technique::poisson::reference::disk(11);
         let sum = |count: usize, radius: f64, turned: bool| -> Sum {
             let (comparisons, disk) = (Comparisons::new(), disk.clone());

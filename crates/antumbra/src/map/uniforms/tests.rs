@@ -20,8 +20,8 @@ fn layout(module: &naga::Module, name: &str) -> Layout {
     (rows, *span)
 }
 
-/// `ShadowView` as Rust lays it out.
-fn rust_view() -> Layout {
+/// `ShadowView` as Rust lays it out, with widths of these names.
+fn rust_view(widths: &[&str]) -> Layout {
     macro_rules! row {
         ($field:ident) => {{
             let zero: ShadowView = bytemuck::Zeroable::zeroed();
@@ -29,7 +29,7 @@ fn rust_view() -> Layout {
             (stringify!($field).to_string(), offset, size_of_val(&zero.$field) as u32)
         }};
     }
-    let rows = vec![
+    let mut rows = vec![
         row!(clip_from_world),
         row!(depth_plane),
         row!(to_light),
@@ -38,24 +38,31 @@ fn rust_view() -> Layout {
         row!(reach_x),
         row!(reach_y),
     ];
-    (rows, VIEW_BYTES as u32)
+    let base = VIEW_BYTES as u32;
+    rows.extend((0..).zip(widths).map(|(i, name)| (format!("width_{name}"), base + 4 * i, 4)));
+    (rows, view_bytes(widths.len()) as u32)
 }
 
 fn device() -> Capabilities {
     Capabilities { features: wgpu::Features::empty(), limits: wgpu::Limits::default() }
 }
 
-fn same(wgsl: &str) -> Result<(), String> {
+fn width_names(technique: &dyn Technique) -> Vec<&'static str> {
+    technique.widths().into_iter().map(|(name, _)| name).collect()
+}
+
+fn same(wgsl: &str, widths: &[&str]) -> Result<(), String> {
     let module = parse_str(wgsl).map_err(|e| e.emit_to_string(wgsl))?;
-    let (found, expected) = (layout(&module, "ShadowView"), rust_view());
+    let (found, expected) = (layout(&module, "ShadowView"), rust_view(widths));
     if found == expected { Ok(()) } else { Err(format!("WGSL {found:?}, Rust {expected:?}")) }
 }
 
 #[test]
 fn the_view_is_laid_out_alike_in_rust_and_wgsl() {
-    for technique in all() {
+    for technique in all().into_iter().chain([parse("esm.classifier=zmax").unwrap()]) {
         let text = shader::receiver(technique.as_ref(), &device(), 3, 0).text();
-        same(&text).unwrap();
+        let widths = width_names(technique.as_ref());
+        same(&text, &widths).unwrap();
         let module = parse_str(&text).unwrap();
         let stride = module
             .types
@@ -69,21 +76,22 @@ fn the_view_is_laid_out_alike_in_rust_and_wgsl() {
                 _ => None,
             })
             .unwrap();
-        assert_eq!(u64::from(stride), VIEW_BYTES);
+        assert_eq!(u64::from(stride), view_bytes(widths.len()));
         // Negative controls: two members swapped, one of another type.
         let swapped = text
             .replace("near_over_far: f32, reach_x: f32", "reach_x: f32, near_over_far: f32")
             .replace("depth_plane: vec4f, to_light: vec4f", "to_light: vec4f, depth_plane: vec4f");
         assert_ne!(swapped, text);
-        same(&swapped).unwrap_err();
-        same(&text.replace("to_light: vec4f", "to_light: vec2f")).unwrap_err();
+        same(&swapped, &widths).unwrap_err();
+        same(&text.replace("to_light: vec4f", "to_light: vec2f"), &widths).unwrap_err();
     }
 }
 
 /// The bytes that `write` writes to the receivers' buffer.
 fn written(technique: &dyn Technique, bias: Bias, size: Size, views: &[View], room: usize) -> Vec<u8> {
     let mut bytes = Vec::new();
-    receiver_bytes(&mut bytes, views, room, [0.25, 0.125], &scalars(technique, bias, size));
+    let widths: Vec<Width> = technique.widths().into_iter().map(|(_, width)| width).collect();
+    receiver_bytes(&mut bytes, views, room, [0.25, 0.125], &widths, &scalars(technique, bias, size));
     bytes
 }
 
@@ -104,9 +112,14 @@ fn what_is_written_lies_where_the_shader_reads_it() {
         near_over_far: 29.0,
         depth_world: 30.0,
     };
-    for technique in
-        ["hard", "pcf.precision=8", "vsm.least_variance=0.001,slope=3", "csm.offset=0.2", "esm.c=33"]
-    {
+    for technique in [
+        "hard",
+        "pcf.precision=8",
+        "vsm.least_variance=0.001,slope=3",
+        "csm.offset=0.2",
+        "esm.c=33,classifier=zmax,kernel=9,width=140",
+        "poisson.kernel=31,width=1400",
+    ] {
         let technique = parse(technique).unwrap();
         let module = parse_str(&shader::receiver(technique.as_ref(), &device(), 3, 0).text()).unwrap();
         let (members, span) = layout(&module, "ShadowUniforms");
@@ -132,12 +145,19 @@ fn what_is_written_lies_where_the_shader_reads_it() {
         assert_eq!(found, expected);
         // The second view, and the blank third.
         let (rows, _) = layout(&module, "ShadowView");
-        let base = VIEW_BYTES as u32;
+        let widths = technique.widths();
+        let base = view_bytes(widths.len()) as u32;
         assert_eq!(float(base + 4 * 7), 7.0);
         assert_eq!(float(base + rows[1].1), 20.0);
         assert_eq!(float(base + rows[2].1), 24.0);
         let tail: Vec<f32> = rows[3..].iter().map(|(_, offset, _)| float(base + offset)).collect();
-        assert_eq!(tail, [28.0, 29.0, 0.25, 0.125]);
+        // 140 and 1400 world units in texels of 28; the latter is more than 31 texels.
+        let texels = match technique.page().name {
+            "esm" => vec![5.0],
+            "poisson" => vec![31.0],
+            _ => Vec::new(),
+        };
+        assert_eq!(tail, [vec![28.0, 29.0, 0.25, 0.125], texels].concat());
         assert!(bytes[2 * base as usize..3 * base as usize].iter().all(|b| *b == 0));
     }
 }
@@ -150,8 +170,11 @@ fn the_convert_settings_are_floats_in_order() {
         for step in steps.iter().filter(|s| s.source.slot == pass::Slot::Casters) {
             let module = parse_str(&step.shader).unwrap();
             let (members, _) = layout(&module, "Convert");
-            let names = std::iter::once("near_over_far").chain(technique.uniforms().into_iter().map(|u| u.0));
-            let expected: Vec<_> = names.zip(0..).map(|(name, i)| (name.to_string(), 4 * i, 4)).collect();
+            let names =
+                ["reach", "near_over_far"].into_iter().chain(technique.uniforms().into_iter().map(|u| u.0));
+            let side = 4 * MOST_SIDE as u32;
+            let mut expected = vec![("side".to_string(), 0, side)];
+            expected.extend(names.zip(0..).map(|(name, i)| (name.to_string(), side + 4 * i, 4)));
             assert_eq!(members, expected);
         }
     }

@@ -6,7 +6,7 @@ fn esm_failed(ratio: f32, epsilon: f32) -> bool {
 }
 
 /// One filtered lookup, clamped to [0,1]; custom filtering where it failed.
-fn esm_visibility(map: LookupMap, map_sampler: sampler, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f, c: f32, epsilon: f32, offset: f32, half_kernel: f32) -> f32 {
+fn esm_visibility(map: LookupMap, map_sampler: sampler, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f, c: f32, epsilon: f32, offset: f32) -> f32 {
     let ratio = esm_ratio(depth, lookup_filtered(map, map_sampler, uv, view, ddx, ddy).x, c);
     if esm_failed(ratio, epsilon) {
         return esm_custom(map, uv, view, depth, c);
@@ -15,7 +15,7 @@ fn esm_visibility(map: LookupMap, map_sampler: sampler, uv: vec2f, view: u32, de
 }
 
 /// 1 where the assumption behind the method is violated.
-fn esm_class(map: LookupMap, map_sampler: sampler, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f, c: f32, epsilon: f32, offset: f32, half_kernel: f32) -> u32 {
+fn esm_class(map: LookupMap, map_sampler: sampler, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f, c: f32, epsilon: f32, offset: f32) -> u32 {
     let ratio = esm_ratio(depth, lookup_filtered(map, map_sampler, uv, view, ddx, ddy).x, c);
     return select(0u, 1u, esm_failed(ratio, epsilon));
 }
