@@ -190,6 +190,20 @@ impl Filter {
         self.table(values).map_or(1, |table| 16 * table.parts())
     }
 
+    /// What to tell of a map of values in a 16-bit format that such a device cannot render to, if that
+    /// format is asked for; a table does without.
+    pub(crate) fn told_of_norm16(
+        &self,
+        device: &Capabilities,
+        what: &str,
+        format: Option<wgpu::TextureFormat>,
+    ) -> Option<String> {
+        let missing = format.filter(|f| self.sampling != Sampling::Summed && !device.renders(*f))?;
+        Some(format!(
+            "{what} in 32 bits instead of 16, twice the memory: {missing:?} cannot be rendered to without TEXTURE_FORMAT_16BIT_NORM and TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES"
+        ))
+    }
+
     /// Width of the blur in each view.
     #[must_use]
     pub fn width(&self) -> Width {

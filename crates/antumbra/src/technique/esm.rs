@@ -210,11 +210,9 @@ impl Technique for Esm {
         Ok(std::iter::once(first).chain(second).collect())
     }
     fn fallbacks(&self, device: &Capabilities) -> Vec<String> {
-        let mut told = Vec::new();
         let summed = self.filter.sampling == Sampling::Summed;
-        if self.storage == Storage::Log16 && !summed && !device.renders(TextureFormat::R16Unorm) {
-            told.push("depth in 32-bit floats instead of 16 bits, twice the memory: R16Unorm cannot be rendered to without TEXTURE_FORMAT_16BIT_NORM and TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES".into());
-        }
+        let format = (self.storage == Storage::Log16).then_some(TextureFormat::R16Unorm);
+        let mut told: Vec<String> = self.filter.told_of_norm16(device, "depth", format).into_iter().collect();
         if summed && self.classifier != Classifier::None && self.custom == Custom::Four {
             told.push("no custom filtering: a summed-area table has no texels to clamp one by one".into());
         }

@@ -19,6 +19,7 @@
 
 use super::{Binding, Combine, Constant, Encode, Family, Map, Page, Technique, Uniform};
 use crate::{
+    bound,
     capabilities::Capabilities,
     error::Unsupported,
     filter::{Filter, Sampling, Values},
@@ -191,24 +192,9 @@ impl Technique for Evsm {
                 Field::Choice(&mut self.format),
                 "storage; exponents are at most 42 in float32, 5.54 in float16",
             ),
-            Parameter::new(
-                "least_variance",
-                "depth range²",
-                Field::Number(&mut self.least_variance, 0.0..=0.01),
-                "variance is kept at or above this",
-            ),
-            Parameter::new(
-                "slope",
-                "",
-                Field::Number(&mut self.slope, 0.0..=4.0),
-                "times ¼(z_x² + z_y²), the variance of a plane within a texel: keeps slopes lit without bias",
-            ),
-            Parameter::new(
-                "reduction",
-                "",
-                Field::Number(&mut self.reduction, 0.0..=0.99),
-                "light-bleeding reduction: this much of the bound is cut off",
-            ),
+            bound::least_variance(&mut self.least_variance),
+            bound::slope(&mut self.slope),
+            bound::reduction(&mut self.reduction),
         ];
         own.into_iter().chain(self.filter.parameters()).collect()
     }

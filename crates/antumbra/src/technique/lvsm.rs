@@ -17,6 +17,7 @@
 
 use super::{Binding, Combine, Constant, Encode, Family, Map, Page, Technique, Uniform};
 use crate::{
+    bound,
     capabilities::Capabilities,
     error::Unsupported,
     filter::{Filter, Values},
@@ -103,25 +104,10 @@ impl Technique for Lvsm {
                 Field::Number(&mut self.overlap, 0.0..=1.0),
                 "how far an interval reaches beyond its ends",
             ),
-            Parameter::new(
-                "least_variance",
-                "depth range²",
-                Field::Number(&mut self.least_variance, 0.0..=0.01),
-                "variance is kept at or above this",
-            ),
-            Parameter::new(
-                "slope",
-                "",
-                Field::Number(&mut self.slope, 0.0..=4.0),
-                "times ¼(z_x² + z_y²), the variance of a plane within a texel: keeps slopes lit without bias",
-            ),
+            bound::least_variance(&mut self.least_variance),
+            bound::slope(&mut self.slope),
             Parameter::new("choose", "", Field::Choice(&mut self.choose), "which intervals bound the lit share"),
-            Parameter::new(
-                "reduction",
-                "",
-                Field::Number(&mut self.reduction, 0.0..=0.99),
-                "light-bleeding reduction: this much of the bound is cut off",
-            ),
+            bound::reduction(&mut self.reduction),
         ];
         own.into_iter().chain(self.filter.parameters()).collect()
     }

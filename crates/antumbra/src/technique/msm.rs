@@ -41,6 +41,7 @@
 
 use super::{Binding, Combine, Constant, Encode, Family, Map, Page, Technique, Uniform};
 use crate::{
+    bound,
     capabilities::Capabilities,
     error::Unsupported,
     filter::{Filter, Values},
@@ -134,12 +135,7 @@ impl Technique for Msm {
                 Field::Number(&mut self.moment_bias, 0.0..=0.1),
                 "share of well-conditioned moments mixed in; 0 is 6e-5 with unorm16, 3e-6 with float32",
             ),
-            Parameter::new(
-                "reduction",
-                "",
-                Field::Number(&mut self.reduction, 0.0..=0.99),
-                "light-bleeding reduction: this much of the bound is cut off",
-            ),
+            bound::reduction(&mut self.reduction),
         ];
         own.into_iter().chain(self.filter.parameters()).collect()
     }
@@ -148,12 +144,8 @@ impl Technique for Msm {
         Ok(vec![self.filter.map("moments", encode, self.values(Some(device)), Combine::Mean)])
     }
     fn fallbacks(&self, device: &Capabilities) -> Vec<String> {
-        match (self.format, self.texels(device)) {
-            (Format::Unorm16, wgpu::TextureFormat::Rgba32Float) => vec![
-                "moments in 32 bits instead of 16, twice the memory: Rgba16Unorm cannot be rendered to without TEXTURE_FORMAT_16BIT_NORM and TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES".into(),
-            ],
-            _ => Vec::new(),
-        }
+        let format = (self.format == Format::Unorm16).then_some(wgpu::TextureFormat::Rgba16Unorm);
+        self.filter.told_of_norm16(device, "moments", format).into_iter().collect()
     }
     fn bindings(&self) -> Vec<Binding> {
         vec![Binding::Map(0), Binding::Sampler]

@@ -8,6 +8,7 @@
 
 use super::{Binding, Combine, Constant, Encode, Family, Map, Page, Technique, Uniform};
 use crate::{
+    bound,
     capabilities::Capabilities,
     error::Unsupported,
     filter::{Filter, Values},
@@ -107,24 +108,9 @@ impl Technique for Vsm {
     }
     fn parameters(&mut self) -> Vec<Parameter<'_>> {
         let own = vec![
-            Parameter::new(
-                "least_variance",
-                "depth range²",
-                Field::Number(&mut self.least_variance, 0.0..=0.01),
-                "variance is kept at or above this",
-            ),
-            Parameter::new(
-                "reduction",
-                "",
-                Field::Number(&mut self.reduction, 0.0..=0.99),
-                "light-bleeding reduction: this much of the bound is cut off",
-            ),
-            Parameter::new(
-                "slope",
-                "",
-                Field::Number(&mut self.slope, 0.0..=4.0),
-                "times ¼(z_x² + z_y²), the variance of a plane within a texel: keeps slopes lit without bias",
-            ),
+            bound::least_variance(&mut self.least_variance),
+            bound::reduction(&mut self.reduction),
+            bound::slope(&mut self.slope),
             Parameter::new("slope_of", "", Field::Choice(&mut self.slope_of), "whose slope"),
             Parameter::new("storage", "", Field::Choice(&mut self.storage), "what moments are stored in"),
         ];
@@ -138,9 +124,8 @@ impl Technique for Vsm {
         Ok(vec![self.filter.map("moments", encode, self.values(Some(device)), Combine::Mean)])
     }
     fn fallbacks(&self, device: &Capabilities) -> Vec<String> {
-        let told = "moments in 32 bits instead of 16, twice the memory: Rg16Unorm cannot be rendered to without TEXTURE_FORMAT_16BIT_NORM and TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES";
-        let lacks = self.storage == Storage::Unorm16 && !device.renders(TextureFormat::Rg16Unorm);
-        if lacks { vec![told.into()] } else { Vec::new() }
+        let format = (self.storage == Storage::Unorm16).then_some(TextureFormat::Rg16Unorm);
+        self.filter.told_of_norm16(device, "moments", format).into_iter().collect()
     }
     fn bindings(&self) -> Vec<Binding> {
         vec![Binding::Map(0), Binding::Sampler]
