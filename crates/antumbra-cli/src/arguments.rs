@@ -29,6 +29,9 @@ pub(crate) enum Command {
     /// Write every layer and channel of a technique's filtered maps as pictures
     #[command(after_help = MAPS_EXAMPLES)]
     Maps(Maps),
+    /// Run the papers' experiments again: their numbers beside ours, and what becomes of their claims
+    #[command(after_help = REPRODUCE_EXAMPLES)]
+    Reproduce(Reproduce),
     /// List techniques with their parameters, ranges, defaults and papers
     Techniques(List),
     /// List the built-in scenes, or write one as a file
@@ -70,6 +73,14 @@ Values are what receivers get: without bias, and clamped to 0..1, so that ringin
 const MAPS_EXAMPLES: &str = "Examples:
   antumbra maps contact --technique csm -o basis
   antumbra maps fence --technique vsm.kernel=7 --level 2 -o moments";
+
+const REPRODUCE_EXAMPLES: &str = "Examples:
+  antumbra reproduce --list
+  antumbra reproduce csm/figure-9
+  antumbra reproduce esm spsm/table-1 -o papers
+  antumbra reproduce all --quick
+
+What was measured is kept in the folder: run the same command again after an interruption and it goes on.";
 
 /// The scene and how it is seen.
 #[derive(Debug, Args)]
@@ -200,6 +211,26 @@ pub(crate) struct Maps {
     #[arg(short, long, default_value = "maps", value_name = "FOLDER")]
     pub(crate) output: PathBuf,
     /// Print what was written as JSON instead of a table
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Reproduce {
+    /// A figure or table (csm/figure-9), a source (csm), or all
+    #[arg(required_unless_present = "list", value_name = "TARGET")]
+    pub(crate) targets: Vec<String>,
+    /// Show every target with the time it takes
+    #[arg(long)]
+    pub(crate) list: bool,
+    /// Make everything small, to see that it works: pictures and maps of a quarter of the size each way,
+    /// times of one frame
+    #[arg(long)]
+    pub(crate) quick: bool,
+    /// Folder of the pages; pages of other targets there stay
+    #[arg(short, long, default_value = "reproduction", value_name = "FOLDER")]
+    pub(crate) output: PathBuf,
+    /// Print the results as JSON instead of text
     #[arg(long)]
     pub(crate) json: bool,
 }

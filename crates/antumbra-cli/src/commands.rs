@@ -16,6 +16,7 @@ mod export;
 mod info;
 mod maps;
 mod render;
+mod reproduce;
 mod table;
 
 /// Runs the subcommand.
@@ -26,6 +27,7 @@ pub(crate) fn run(arguments: Arguments) -> Result<()> {
         Command::Bench(arguments) => bench::run(&arguments),
         Command::Curve(arguments) => curve::run(&arguments),
         Command::Maps(arguments) => maps::run(&arguments),
+        Command::Reproduce(arguments) => reproduce::run(&arguments),
         Command::Techniques(arguments) => info::techniques(arguments.json),
         Command::Scenes(arguments) => match arguments.action {
             Some(SceneAction::Export(arguments)) => export::run(&arguments),

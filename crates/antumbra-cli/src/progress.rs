@@ -2,7 +2,10 @@
 
 use antumbra_lab::compare::Progress;
 use indicatif::{ProgressBar, ProgressStyle};
-use std::time::Duration;
+use std::{
+    io::{self, Write},
+    time::Duration,
+};
 
 /// One bar that names the current step. Draws nothing where standard error is no terminal.
 #[derive(Debug)]
@@ -10,12 +13,34 @@ pub(crate) struct Bar(ProgressBar);
 
 impl Bar {
     pub(crate) fn new() -> Self {
+        Self::of("{spinner} {msg:34} {bar:32} {elapsed}")
+    }
+
+    /// One that also says how far something larger is.
+    pub(crate) fn wide() -> Self {
+        Self::of("{spinner} {elapsed} {prefix}: {msg:34} {bar:20}")
+    }
+
+    fn of(template: &str) -> Self {
         let bar = ProgressBar::new(1000);
-        if let Ok(style) = ProgressStyle::with_template("{spinner} {msg:34} {bar:32} {elapsed}") {
+        if let Ok(style) = ProgressStyle::with_template(template) {
             bar.set_style(style);
         }
         bar.enable_steady_tick(Duration::from_millis(120));
         Self(bar)
+    }
+
+    /// How far the larger thing is.
+    pub(crate) fn prefix(&self, text: &str) {
+        self.0.set_prefix(text.to_string());
+    }
+
+    /// Prints a line to standard output, above the bar.
+    pub(crate) fn line(&self, text: &str) {
+        // A standard output that nobody reads is no reason to stop.
+        self.0.suspend(|| {
+            let _ = writeln!(io::stdout(), "{text}");
+        });
     }
 }
 

@@ -25,7 +25,7 @@ mod facts;
 mod truths;
 
 pub use contestant::{Contestant, enter};
-pub use facts::adapter_facts;
+pub use facts::{adapter_facts, memory, work};
 use truths::{Truth, Truths};
 
 /// What to compare.

@@ -21,10 +21,11 @@ mod table;
 mod text;
 mod viewer;
 
-pub(crate) use text::escape;
+pub use text::{bytes, count, escape, milliseconds, percent, significant};
 
 const PAGE: &str = include_str!("report/page.html");
-const STYLE: &str = include_str!("report/style.css");
+/// The style sheet that all pages share.
+pub const STYLE: &str = include_str!("report/style.css");
 const VIEWER_SCRIPT: &str = include_str!("report/viewer.js");
 const PAGE_SCRIPT: &str = include_str!("report/script.js");
 

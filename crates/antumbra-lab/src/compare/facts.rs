@@ -40,7 +40,9 @@ pub(super) fn technique(shadows: &ShadowMap, rendered: Rendered, time: TimeResul
     }
 }
 
-fn memory(memory: &Memory) -> MemoryResult {
+/// What a shadow map takes, as results say it.
+#[must_use]
+pub fn memory(memory: &Memory) -> MemoryResult {
     let item = |item: &antumbra::MemoryItem| MemoryItem {
         name: item.name.clone(),
         format: item.format.to_lowercase(),
@@ -61,7 +63,9 @@ fn memory(memory: &Memory) -> MemoryResult {
     }
 }
 
-fn work(shadows: &ShadowMap) -> Work {
+/// What a shadow map takes whatever runs it.
+#[must_use]
+pub fn work(shadows: &ShadowMap) -> Work {
     let memory = shadows.memory();
     let kept = memory.items.iter().filter(|i| i.lifetime == antumbra::Lifetime::Kept && i.format != "buffer");
     let side = |length: u32, mip: u32| u64::from((length >> mip).max(1));

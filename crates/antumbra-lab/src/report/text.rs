@@ -3,7 +3,8 @@
 use crate::results::{Results, TechniqueResult};
 
 /// Safe as HTML text and in a quoted attribute.
-pub(crate) fn escape(text: &str) -> String {
+#[must_use]
+pub fn escape(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
     for c in text.chars() {
         match c {
@@ -39,12 +40,14 @@ pub(super) fn label(results: &Results, technique: &TechniqueResult) -> String {
 }
 
 /// A share as a percentage: "98.42 %".
-pub(super) fn percent(share: f64) -> String {
+#[must_use]
+pub fn percent(share: f64) -> String {
     format!("{:.2}\u{202f}%", share * 100.0)
 }
 
 /// A size: "512 B", "20.0 MiB".
-pub(super) fn bytes(bytes: f64) -> String {
+#[must_use]
+pub fn bytes(bytes: f64) -> String {
     let units = ["B", "KiB", "MiB", "GiB", "TiB"];
     let power = (1..units.len()).take_while(|&p| bytes >= 1024_f64.powi(p as i32)).count();
     let value = bytes / 1024_f64.powi(power as i32);
@@ -53,7 +56,8 @@ pub(super) fn bytes(bytes: f64) -> String {
 }
 
 /// A time: "0.412 ms", "153 ms".
-pub(super) fn milliseconds(ms: f64) -> String {
+#[must_use]
+pub fn milliseconds(ms: f64) -> String {
     format!("{}\u{202f}ms", significant(ms))
 }
 
@@ -63,7 +67,8 @@ pub(super) fn seconds(s: f64) -> String {
 }
 
 /// Three significant digits, without an exponent: "0.0412", "4.12", "412".
-pub(super) fn significant(value: f64) -> String {
+#[must_use]
+pub fn significant(value: f64) -> String {
     if value == 0.0 || !value.is_finite() {
         return format!("{value}");
     }
@@ -72,7 +77,8 @@ pub(super) fn significant(value: f64) -> String {
 }
 
 /// A count with thin spaces between thousands: "1 234 567".
-pub(super) fn count(number: u64) -> String {
+#[must_use]
+pub fn count(number: u64) -> String {
     let digits = number.to_string();
     let groups: Vec<&str> =
         (0..digits.len()).rev().step_by(3).map(|last| &digits[last.saturating_sub(2)..=last]).collect();

@@ -1,0 +1,406 @@
+//! What all experiments share: scenes, pictures with every technique, truths, scores, races. All of
+//! it is kept on disk ([`Cache`]), so that asking twice costs nothing.
+
+use crate::{
+    cache::{Cache, fingerprint, packed},
+    raster::Raster,
+    study::{Look, Shot, Study, StudyFile, Traced, TracedFile, Truth, ViewFacts},
+};
+use antumbra::{Kernel, ShadowMap, Technique, Weights, technique};
+use antumbra_lab::{
+    classes,
+    compare::{self, Contestant, Progress},
+    curve,
+    gpu::Gpu,
+    lighting::{Lighting, Lookup},
+    maps::{self, Sheet},
+    metrics::{self, Score},
+    plane::Plane,
+    regions,
+    results::{AdapterFacts, TimeResult},
+    stage::Stage,
+    timing::{self, Entrant},
+};
+use antumbra_scene::{Camera, Geometry, Light, procedural};
+use antumbra_truth::{CameraRays, MapPlane, Tracer};
+use anyhow::{Context, Result, bail};
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+use std::{cell::RefCell, collections::BTreeMap, path::Path, rc::Rc};
+
+/// Shared services of all experiments.
+pub struct Bench<'a> {
+    gpu: Gpu,
+    cache: Cache,
+    scenes: RefCell<BTreeMap<&'static str, Rc<Loaded>>>,
+    progress: &'a dyn Progress,
+    /// Whether everything is made small, to see that it works rather than to measure.
+    pub quick: bool,
+    /// Fingerprint of the program.
+    pub build: String,
+}
+
+impl std::fmt::Debug for Bench<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Bench")
+            .field("cache", &self.cache)
+            .field("quick", &self.quick)
+            .finish_non_exhaustive()
+    }
+}
+
+#[derive(Debug)]
+struct Loaded {
+    geometry: Geometry,
+    camera: Camera,
+    light: Light,
+}
+
+/// Whether this program has the technique that a spec names.
+#[must_use]
+pub fn knows(spec: &str) -> bool {
+    let name = spec.split('.').next().unwrap_or(spec);
+    technique::all().iter().any(|t| t.page().name == name)
+}
+
+fn parse(specs: &[&str]) -> Result<Vec<Box<dyn Technique>>> {
+    specs.iter().map(|spec| Ok(technique::parse(spec)?)).collect()
+}
+
+impl<'a> Bench<'a> {
+    /// Opens the graphics device. Measurements are kept in `cache`.
+    ///
+    /// # Errors
+    /// No adapter; an executable that cannot be read.
+    pub fn new(cache: &Path, quick: bool, progress: &'a dyn Progress) -> Result<Self> {
+        let gpu = Gpu::new()?;
+        let adapter = compare::adapter_facts(&gpu);
+        let program = std::env::current_exe().context("the path of this program")?;
+        let program = std::fs::read(&program).with_context(|| program.display().to_string())?;
+        let build = format!("{:032x}", fingerprint(&program));
+        let adapter = serde_json::to_string(&adapter)?;
+        let cache = Cache::new(cache, &format!("{} {build}", env!("CARGO_PKG_VERSION")), &adapter);
+        Ok(Self { gpu, cache, scenes: RefCell::default(), progress, quick, build })
+    }
+
+    /// What the graphics device says of itself.
+    #[must_use]
+    pub fn adapter(&self) -> AdapterFacts {
+        compare::adapter_facts(&self.gpu)
+    }
+
+    /// A scene at a resolution, a quarter of that each way in a quick run.
+    #[must_use]
+    pub fn shot(&self, scene: &'static str, resolution: [u32; 2]) -> Shot {
+        let scale = if self.quick { 4 } else { 1 };
+        Shot { scene, distance: 1.0, resolution: resolution.map(|n| (n / scale).max(1)) }
+    }
+
+    /// A map's size, a quarter of it in a quick run.
+    #[must_use]
+    pub fn map(&self, texels: u32) -> u32 {
+        if self.quick { (texels / 4).max(32) } else { texels }
+    }
+
+    /// Frames to time, one in a quick run.
+    #[must_use]
+    pub fn rounds(&self, frames: u32) -> u32 {
+        if self.quick { 1 } else { frames }
+    }
+
+    fn scene(&self, name: &'static str) -> Result<Rc<Loaded>> {
+        if let Some(loaded) = self.scenes.borrow().get(name) {
+            return Ok(Rc::clone(loaded));
+        }
+        self.progress.step(&format!("build the scene {name}"));
+        let entry = procedural::by_name(name).with_context(|| format!("no scene is called {name}"))?;
+        let scene = entry.scene(procedural::Procedural::DEFAULT_SEED);
+        let loaded =
+            Loaded { geometry: scene.flatten(), camera: scene.main_camera(), light: scene.main_light() };
+        let loaded = Rc::new(loaded);
+        self.scenes.borrow_mut().insert(name, Rc::clone(&loaded));
+        Ok(loaded)
+    }
+
+    fn stage(&self, shot: &Shot, scene: &Loaded) -> Result<Stage> {
+        Stage::new(&self.gpu, &scene.geometry, &camera(shot, scene), &scene.light, shot.resolution)
+    }
+
+    /// Draws a shot with every technique of `specs`, maps being `map` texels wide.
+    ///
+    /// # Errors
+    /// Unknown techniques or settings; settings that the device cannot do.
+    pub fn study(&self, shot: Shot, map: u32, specs: &[&str]) -> Result<Study> {
+        let key = ("study", shot, map, specs);
+        let file = self.cache.memo(&key, || self.draw(&shot, map, specs))?;
+        let key = serde_json::to_string(&key)?;
+        Ok(Study { shot, map, looks: file.looks, view: file.view, key })
+    }
+
+    fn draw(&self, shot: &Shot, map: u32, specs: &[&str]) -> Result<StudyFile> {
+        let (gpu, scene) = (&self.gpu, self.scene(shot.scene)?);
+        let techniques = parse(specs)?;
+        self.progress.step(&format!("prepare {} techniques on {}", specs.len(), shot.scene));
+        let mut stage = self.stage(shot, &scene)?;
+        let lighting = Lighting::new(gpu, &stage);
+        let (contestants, view) =
+            compare::enter(gpu, &mut stage, &scene.geometry, &scene.light, &techniques, map)?;
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        stage.encode_surfaces(&mut encoder, None);
+        gpu.finish(encoder)?;
+        let mut looks = Vec::new();
+        for (i, (contestant, spec)) in contestants.iter().zip(specs).enumerate() {
+            self.progress.step(&format!("draw {spec} on {}", shot.scene));
+            self.progress.share(i as f32 / specs.len() as f32);
+            looks.push(look(gpu, &stage, &lighting, contestant, spec)?);
+        }
+        let plane = compare::map_plane(&view);
+        let view = ViewFacts {
+            right: plane.right_per_texel.to_array(),
+            down: plane.down_per_texel.to_array(),
+            depth: view.depth_world,
+        };
+        Ok(StudyFile { looks, view })
+    }
+
+    /// Traces what a study's pictures ought to be. The scene's tree of triangles is built once for all
+    /// that are not known yet.
+    ///
+    /// # Errors
+    /// A lost device.
+    pub fn truths(&self, study: &Study, truths: &[Truth]) -> Result<Vec<Traced>> {
+        let scene = self.scene(study.shot.scene)?;
+        let (geometry, light) = (&scene.geometry, &scene.light);
+        let mut tracer = None;
+        let [width, height] = study.shot.resolution;
+        let mut traced = Vec::new();
+        for truth in truths {
+            let view = matches!(truth, Truth::LightSpace(_)).then_some(study.view);
+            let key = ("truth", study.shot, truth, view);
+            let file = self.cache.memo(&key, || {
+                self.progress.step(&format!("trace rays: {}, {}", study.shot.scene, name(*truth)));
+                let tracer = match &mut tracer {
+                    Some(tracer) => tracer,
+                    none => none.insert(Tracer::new(geometry)?),
+                };
+                let rays = CameraRays::new(&camera(&study.shot, &scene), width, height)?;
+                let report = |share| self.progress.share(share);
+                let seen = match truth {
+                    Truth::Hard => tracer.hard(&rays, light),
+                    Truth::LightSpace(kernel) => {
+                        let map = MapPlane {
+                            right_per_texel: DVec3::from(study.view.right),
+                            down_per_texel: DVec3::from(study.view.down),
+                        };
+                        tracer.light_space_ideal(&rays, light, &gaussian(*kernel)?, &map, &report)
+                    }
+                    Truth::ScreenSpace(grid) => tracer.supersampled(&rays, light, *grid, &report),
+                };
+                let plane = Plane::new(width, height, seen.values.clone())?;
+                Ok(TracedFile {
+                    picture: self.shade(&study.shot, &scene, &plane)?,
+                    values: seen.values,
+                    shadowable: seen.shadowable.into_iter().map(u8::from).collect(),
+                })
+            })?;
+            traced.push(Traced {
+                plane: Plane::new(width, height, file.values)?,
+                shadowable: file.shadowable.into_iter().map(|s| s != 0).collect(),
+                picture: file.picture,
+                key: serde_json::to_string(&key)?,
+            });
+        }
+        Ok(traced)
+    }
+
+    /// The picture that a given visibility makes.
+    fn shade(&self, shot: &Shot, scene: &Loaded, visibility: &Plane) -> Result<Raster> {
+        let stage = self.stage(shot, scene)?;
+        let lighting = Lighting::new(&self.gpu, &stage);
+        lighting.write_visibility(&self.gpu, visibility);
+        let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+        stage.encode_surfaces(&mut encoder, None);
+        lighting.encode_picture(&mut encoder, &stage);
+        self.gpu.finish(encoder)?;
+        Ok(lighting.read_picture(&self.gpu)?.into())
+    }
+
+    /// Scores a technique of a study against one of its truths, over the pixels that can be in shadow
+    /// or, where `among` names a mask, over those of them that it holds.
+    ///
+    /// # Errors
+    /// A spec that is not in the study; a mask without any such pixel.
+    pub fn score(
+        &self,
+        study: &Study,
+        spec: &str,
+        truth: &Traced,
+        among: Option<(&str, &[bool])>,
+    ) -> Result<Score> {
+        let key = ("score", &study.key, spec, &truth.key, among.map(|(name, _)| name));
+        self.cache.memo(&key, || {
+            let both = |(a, b): (&bool, &bool)| *a && *b;
+            let mask: Vec<bool> = match among {
+                Some((_, among)) => truth.shadowable.iter().zip(among).map(both).collect(),
+                None => truth.shadowable.clone(),
+            };
+            let score = metrics::score(&study.look(spec)?.visibility()?, &truth.plane, &mask);
+            score.with_context(|| format!("{spec} on {}", study.shot.scene))
+        })
+    }
+
+    /// Pixels of a study where techniques are known to differ, by name: see [`regions::regions`]; `near`
+    /// is a share of the depth range.
+    ///
+    /// # Errors
+    /// A scene that cannot be traced.
+    pub fn regions(&self, study: &Study, near: f64) -> Result<BTreeMap<String, Vec<bool>>> {
+        #[derive(Serialize, Deserialize)]
+        struct Mask(#[serde(with = "packed")] Vec<u8>);
+        let key = ("regions", study.shot, study.view.depth, near);
+        let masks: BTreeMap<String, Mask> = self.cache.memo(&key, || {
+            let scene = self.scene(study.shot.scene)?;
+            self.progress.step(&format!("trace rays: {}, regions", study.shot.scene));
+            let [width, height] = study.shot.resolution;
+            let tracer = Tracer::new(&scene.geometry)?;
+            let rays = CameraRays::new(&camera(&study.shot, &scene), width, height)?;
+            let shadowable = tracer.hard(&rays, &scene.light).shadowable;
+            let near = near * f64::from(study.view.depth);
+            let found = regions::regions(&tracer, &tracer.primary(&rays), &shadowable, &scene.light, near);
+            let mask =
+                |r: regions::Region| (r.name.into(), Mask(r.pixels.into_iter().map(u8::from).collect()));
+            Ok(found.into_iter().map(mask).collect())
+        })?;
+        Ok(masks.into_iter().map(|(name, m)| (name, m.0.into_iter().map(|v| v != 0).collect())).collect())
+    }
+
+    /// Times frames of all `entrants`, each a map's size and a spec, in turns, so that their ratios can
+    /// be trusted. The spec `none` shades without shadows.
+    ///
+    /// # Errors
+    /// As [`study`](Self::study).
+    pub fn race(&self, shot: Shot, entrants: &[(u32, &str)], rounds: u32) -> Result<Vec<TimeResult>> {
+        if rounds == 0 {
+            bail!("a race of no rounds");
+        }
+        self.cache.memo(&("race", shot, entrants, rounds), || {
+            let (gpu, scene) = (&self.gpu, self.scene(shot.scene)?);
+            self.progress.step(&format!("prepare {} entrants on {}", entrants.len(), shot.scene));
+            let mut stage = self.stage(&shot, &scene)?;
+            let lighting = Lighting::new(gpu, &stage);
+            let mut groups: BTreeMap<u32, Vec<&str>> = BTreeMap::new();
+            for (map, spec) in entrants.iter().filter(|e| e.1 != "none") {
+                groups.entry(*map).or_default().push(spec);
+            }
+            let mut ready: BTreeMap<u32, std::vec::IntoIter<Contestant>> = BTreeMap::new();
+            let mut views = Vec::new();
+            for (map, specs) in groups {
+                let (contestants, _) =
+                    compare::enter(gpu, &mut stage, &scene.geometry, &scene.light, &parse(&specs)?, map)?;
+                for view in contestants.iter().flat_map(|c| c.shadows.caster_views()) {
+                    if !views.contains(view) {
+                        views.push(*view);
+                    }
+                }
+                ready.insert(map, contestants.into_iter());
+            }
+            // One size after the other has set its own.
+            stage.set_views(gpu, &views);
+            let unshadowed = Lookup::unshadowed(gpu, &stage);
+            let runners: Vec<Option<Contestant>> = entrants
+                .iter()
+                .map(|(map, spec)| if *spec == "none" { None } else { ready.get_mut(map)?.next() })
+                .collect();
+            let none = Entrant { shadows: None, lookup: &unshadowed };
+            let runners: Vec<Entrant<'_>> =
+                runners.iter().map(|r| r.as_ref().map_or(none, Contestant::entrant)).collect();
+            self.progress.step(&format!("time {} entrants on {}", entrants.len(), shot.scene));
+            timing::race(gpu, &stage, &lighting, &runners, rounds, &|share| self.progress.share(share))
+        })
+    }
+
+    /// What [`curve::visibility`] answers to a caster at the depth `caster`.
+    ///
+    /// # Errors
+    /// As [`study`](Self::study).
+    pub fn curve(&self, spec: &str, caster: f32, receivers: &[f32]) -> Result<Vec<f32>> {
+        self.cache.memo(&("curve", spec, caster, receivers), || {
+            self.progress.step(&format!("curve of {spec}"));
+            curve::visibility(&self.gpu, technique::parse(spec)?.as_ref(), caster, receivers)
+        })
+    }
+
+    /// Depth and every channel of a technique's filtered maps, on one sheet.
+    ///
+    /// # Errors
+    /// As [`study`](Self::study).
+    pub fn sheet(&self, shot: Shot, map: u32, spec: &str) -> Result<Raster> {
+        self.cache.memo(&("sheet", shot, map, spec), || {
+            let (gpu, scene) = (&self.gpu, self.scene(shot.scene)?);
+            self.progress.step(&format!("maps of {spec} on {}", shot.scene));
+            let mut stage = self.stage(&shot, &scene)?;
+            let techniques = parse(&[spec])?;
+            let (contestants, view) =
+                compare::enter(gpu, &mut stage, &scene.geometry, &scene.light, &techniques, map)?;
+            let contestant = contestants.first().context("no technique")?;
+            let mut encoder = gpu.device.create_command_encoder(&Default::default());
+            let shadows = &contestant.shadows;
+            shadows.encode(&mut encoder, |view, pass| stage.draw_casters(&contestant.casters, view, pass));
+            gpu.finish(encoder)?;
+            let mut sheet = Sheet::default();
+            sheet.add(&maps::depth(gpu, &mut stage, &view, [map; 2])?);
+            maps::pictures(gpu, shadows, 0, &mut |picture| {
+                sheet.add(&picture);
+                Ok(())
+            })?;
+            Ok(sheet.image().into())
+        })
+    }
+}
+
+/// Draws one technique on the surfaces that the stage already holds.
+fn look(gpu: &Gpu, stage: &Stage, lighting: &Lighting, contestant: &Contestant, spec: &str) -> Result<Look> {
+    let shadows: &ShadowMap = &contestant.shadows;
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    shadows.encode(&mut encoder, |view, pass| stage.draw_casters(&contestant.casters, view, pass));
+    lighting.encode_lookup(&mut encoder, stage, &contestant.lookup, Some(shadows), None);
+    lighting.encode_picture(&mut encoder, stage);
+    gpu.finish(encoder)?;
+    let visibility = lighting.read_visibility(gpu)?;
+    let picture = lighting.read_picture(gpu)?;
+    let numbers = contestant.read_classes(gpu, stage, lighting)?;
+    let known = shadows.technique().classes();
+    let tinted = match &numbers {
+        Some(numbers) => Some(classes::picture(&visibility, numbers, known)?.into()),
+        None => None,
+    };
+    Ok(Look {
+        spec: spec.into(),
+        title: shadows.technique().page().title.into(),
+        picture: picture.into(),
+        visibility: visibility.values,
+        tinted,
+        classes: numbers.map(|numbers| classes::shares(&numbers, known)).unwrap_or_default(),
+        memory: compare::memory(&shadows.memory()),
+        work: compare::work(shadows),
+    })
+}
+
+fn camera(shot: &Shot, scene: &Loaded) -> Camera {
+    let own = scene.camera;
+    Camera { position: own.target + (own.position - own.target) * shot.distance, ..own }
+}
+
+fn name(truth: Truth) -> String {
+    match truth {
+        Truth::Hard => "hard truth".into(),
+        Truth::LightSpace(kernel) => format!("light-space ideal of {kernel}×{kernel}"),
+        Truth::ScreenSpace(grid) => format!("screen-space ideal of {grid}×{grid}"),
+    }
+}
+
+/// The blur's weights, as techniques have them.
+fn gaussian(kernel: u32) -> Result<antumbra_truth::Kernel> {
+    let taps = Kernel::new(Weights::Gaussian, kernel, 0.0).taps;
+    Ok(antumbra_truth::Kernel::new(taps.iter().map(|w| f64::from(*w)).collect())?)
+}

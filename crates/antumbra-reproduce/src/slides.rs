@@ -1,0 +1,126 @@
+//! The lecture slides on filtered hard shadows.
+
+use crate::{
+    bench::Bench,
+    page::{Cell, Page, Table, Tile, Unit},
+    raster::{busiest, difference},
+    study::Truth,
+    target::{Source, Target},
+    verdict::{Verdict, at_most, less, more},
+};
+use antumbra_lab::plane::Plane;
+use anyhow::Result;
+use std::collections::BTreeSet;
+
+pub(crate) const SOURCE: Source = Source {
+    key: "slides",
+    name: "Lecture slides, Hard shadows: filtering",
+    targets: &[Target {
+        id: "slides/pcf-row",
+        title: "Percentage-closer filtering of growing kernels",
+        paper: "One scene with a standard shadow map, with 2×2, 3×3 and 4×4 percentage-closer filtering, and with \
+                4×4 of bilinear lookups. Nearest-neighbour lookups leave quantisation; bilinear ones do not.",
+        ours: "The scene spheres with a 512² map, so that texels show. Scored against rays: the ideal that a Gaussian \
+               of the same width in light space would give.",
+        seconds: [20, 4],
+        run: pcf_row,
+    }],
+};
+
+/// Spec, name, width.
+const ROW: [(&str, &str, u32); 5] = [
+    ("hard", "standard shadow map", 1),
+    ("pcf.kernel=2,weights=box,taps=nearest", "PCF 2×2", 2),
+    ("pcf.kernel=3,weights=box,taps=nearest", "PCF 3×3", 3),
+    ("pcf.kernel=4,weights=box,taps=nearest", "PCF 4×4", 4),
+    ("pcf.kernel=4,weights=box", "PCF 4×4, bilinear lookups", 4),
+];
+
+fn pcf_row(bench: &Bench<'_>) -> Result<Page> {
+    let specs = ROW.map(|(spec, ..)| spec);
+    let study = bench.study(bench.shot("spheres", [640, 480]), bench.map(512), &specs)?;
+    let truths = bench.truths(&study, &[Truth::LightSpace(4), Truth::Hard, Truth::ScreenSpace(4)])?;
+    let mut page = Page::default();
+    let mut table = Table::new(
+        "Levels are the different visibilities in the picture. The 4×4 ideal is what rays see through a Gaussian of \
+         four texels; the anti-aliased truth is sharp, with 16 rays per pixel.",
+        &["technique", "levels", "RMSE to the 4×4 ideal", "RMSE to the anti-aliased truth"],
+    );
+    let mut numbers = Vec::new();
+    for (spec, name, _) in ROW {
+        let levels = levels(&study.look(spec)?.visibility()?, &truths[0].shadowable);
+        let rmse = bench.score(&study, spec, &truths[0], None)?.rmse;
+        let smooth = bench.score(&study, spec, &truths[2], None)?.rmse;
+        let cells = [(levels as f64, Unit::Number), (rmse, Unit::Number), (smooth, Unit::Number)];
+        table.row(name, cells.map(|(v, unit)| Cell::ours(v, unit)).into());
+        numbers.push((levels, rmse));
+    }
+    page.verdict(quantised([numbers[0].0, numbers[1].0, numbers[2].0, numbers[3].0, numbers[4].0]));
+    page.verdict(smoother(numbers[0].1, numbers[3].1, numbers[4].1));
+    // Where the standard map looks most wrong.
+    let wrong = difference(&study.look("hard")?.picture, &truths[0].picture);
+    let [w, h] = study.shot.resolution;
+    let window = busiest(&wrong, [w, h], [w / 8, h / 8]);
+    let mut tiles = vec![Tile::new("ray-traced scene", &truths[1].picture.framed(window))?];
+    for (spec, name, _) in ROW {
+        tiles.push(Tile::close_up(name, &study.look(spec)?.picture, window)?);
+    }
+    tiles.push(Tile::close_up("the 4×4 ideal", &truths[0].picture, window)?);
+    page.pictures("The scene and, enlarged, the part that the standard map gets most wrong.", 4, tiles);
+    page.table(table);
+    Ok(page)
+}
+
+/// How many different visibilities there are, to a thousandth, in pixels that can be in shadow.
+fn levels(plane: &Plane, shadowable: &[bool]) -> usize {
+    let values = plane.values.iter().zip(shadowable).filter(|(_, s)| **s);
+    values.map(|(v, _)| (1000.0 * v).round() as i32).collect::<BTreeSet<_>>().len()
+}
+
+fn quantised([hard, two, three, four, bilinear]: [usize; 5]) -> Verdict {
+    let levels = |n: usize| n as f64;
+    Verdict::new(
+        "n×n nearest-neighbour lookups give at most n² + 1 levels of shadow; bilinear ones give more",
+        [
+            at_most("levels without filtering", levels(hard), "1 + 1", 2.0),
+            at_most("levels of 2×2", levels(two), "2² + 1", 5.0),
+            at_most("levels of 3×3", levels(three), "3² + 1", 10.0),
+            at_most("levels of 4×4", levels(four), "4² + 1", 17.0),
+            more("levels of bilinear 4×4", levels(bilinear), "4² + 1", 17.0),
+        ],
+    )
+}
+
+fn smoother(hard: f64, nearest: f64, bilinear: f64) -> Verdict {
+    Verdict::new(
+        "A larger kernel comes closer to the filtered ideal, and bilinear lookups closer still",
+        [
+            less("RMSE of 4×4", nearest, "that of the standard map", hard),
+            less("RMSE of bilinear 4×4", bilinear, "that of nearest 4×4", nearest),
+        ],
+    )
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "tests fail by panicking")]
+mod tests {
+    use super::*;
+    use crate::verdict::Outcome::{Differs, Holds};
+
+    #[test]
+    fn verdicts_follow_their_numbers() {
+        assert_eq!(quantised([2, 5, 10, 17, 300]).outcome(), Holds);
+        assert_eq!(quantised([2, 5, 11, 17, 300]).outcome(), Differs);
+        assert_eq!(quantised([2, 5, 10, 17, 17]).outcome(), Differs);
+        assert_eq!(smoother(0.3, 0.2, 0.1).outcome(), Holds);
+        assert_eq!(smoother(0.3, 0.2, 0.25).outcome(), Differs);
+        assert_eq!(smoother(0.3, 0.4, 0.1).outcome(), Differs);
+    }
+
+    #[test]
+    fn levels_are_counted_where_shadow_can_be() {
+        let plane = Plane::new(4, 1, vec![0.0, 1.0, 0.5, 0.5]).unwrap();
+        assert_eq!(levels(&plane, &[true, true, true, false]), 3);
+        assert_eq!(levels(&plane, &[true, false, false, false]), 1);
+    }
+}

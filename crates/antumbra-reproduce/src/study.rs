@@ -1,0 +1,139 @@
+//! What is asked and what is answered: shots, studies of them, truths.
+
+use crate::{cache::packed, raster::Raster};
+use antumbra_lab::{
+    classes::ClassShare,
+    plane::Plane,
+    results::{MemoryResult, Work},
+};
+use anyhow::{Context, Result};
+use serde::{Deserialize, Serialize};
+
+/// A scene seen by its own camera in its own light.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Shot<S = &'static str> {
+    /// Name of the procedural scene; its seed is the default one.
+    pub scene: S,
+    /// How far the camera is from its target, in the distances of the scene's own camera.
+    pub distance: f32,
+    /// Pixels across and down.
+    pub resolution: [u32; 2],
+}
+
+impl Shot {
+    /// The same from farther away (or nearer), `distance` times the scene's own.
+    #[must_use]
+    pub fn from(self, distance: f32) -> Self {
+        Self { distance, ..self }
+    }
+}
+
+/// What one technique shows.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct Look {
+    /// As it was asked for.
+    pub spec: String,
+    /// Name for people.
+    pub title: String,
+    /// The lit picture.
+    pub picture: Raster,
+    #[serde(with = "packed")]
+    pub(crate) visibility: Vec<f32>,
+    /// Visibility with the kinds of pixels that the technique tells apart in colour, if it does.
+    pub tinted: Option<Raster>,
+    /// The shares of those kinds.
+    pub classes: Vec<ClassShare>,
+    /// Its textures and buffers.
+    pub memory: MemoryResult,
+    /// Bytes per texel, lookups, passes.
+    pub work: Work,
+}
+
+/// One shot with several techniques whose maps have one size and one view.
+#[derive(Debug, Clone)]
+pub struct Study {
+    /// What was seen.
+    pub shot: Shot,
+    /// Texels along one side of the maps.
+    pub map: u32,
+    /// In the order they were asked for.
+    pub looks: Vec<Look>,
+    pub(crate) view: ViewFacts,
+    pub(crate) key: String,
+}
+
+/// What truths need to know of the light's view.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+pub(crate) struct ViewFacts {
+    pub(crate) right: [f64; 3],
+    pub(crate) down: [f64; 3],
+    pub(crate) depth: f32,
+}
+
+/// What is right, by which question.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Truth {
+    /// One shadow ray per pixel.
+    Hard,
+    /// Ray-traced depth behind a Gaussian of so many texels of the study's map.
+    LightSpace(u32),
+    /// So many rays per pixel along each side.
+    ScreenSpace(u32),
+}
+
+/// A truth as it was traced.
+#[derive(Debug, Clone)]
+pub struct Traced {
+    /// Visibility, 1 lit.
+    pub plane: Plane,
+    /// Pixels that see geometry facing the light.
+    pub shadowable: Vec<bool>,
+    /// The scene shaded with it.
+    pub picture: Raster,
+    pub(crate) key: String,
+}
+
+/// What the cache keeps of a truth.
+#[derive(Serialize, Deserialize)]
+pub(crate) struct TracedFile {
+    #[serde(with = "packed")]
+    pub(crate) values: Vec<f32>,
+    #[serde(with = "packed")]
+    pub(crate) shadowable: Vec<u8>,
+    pub(crate) picture: Raster,
+}
+
+/// What the cache keeps of a study.
+#[derive(Serialize, Deserialize)]
+pub(crate) struct StudyFile {
+    pub(crate) looks: Vec<Look>,
+    pub(crate) view: ViewFacts,
+}
+
+impl Look {
+    /// Visibility in each pixel.
+    ///
+    /// # Errors
+    /// Never for a look that a [`Bench`] made.
+    pub fn visibility(&self) -> Result<Plane> {
+        let [width, height] = self.picture.size;
+        Ok(Plane::new(width, height, self.visibility.clone())?)
+    }
+
+    /// The share of a kind of pixels, 0..1, if the technique has it.
+    #[must_use]
+    pub fn share(&self, class: &str) -> Option<f64> {
+        self.classes.iter().find(|c| c.name == class).map(|c| c.share)
+    }
+}
+
+impl Study {
+    /// The look of a technique, by the spec it was asked for.
+    ///
+    /// # Errors
+    /// A spec that is not in the study.
+    pub fn look(&self, spec: &str) -> Result<&Look> {
+        self.looks.iter().find(|l| l.spec == spec).with_context(|| format!("{spec} is not in the study"))
+    }
+}
