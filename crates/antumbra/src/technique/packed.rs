@@ -13,13 +13,16 @@
 //! share one.
 //!
 //! # Levels
-//! Hardware of 2001 added the phases up in 8 bits: a shadowed phase leaves 63 of 255 instead of 64, so
-//! that equal numbers of shadowed texels no longer give equal greys. The paper counts 4 · 5 = 20 levels;
-//! all in all 35 can occur ([`Accumulation::Bytes`]).
+//! 16 texels give 17 levels, but the paper counts 4 · 5 = 20. Its phases have 8 bits: 64 for every
+//! shadowed texel, 255 and not 256 where all four are. So s shadowed texels with f full phases among
+//! them add up to 64 s − f, a quarter of which comes back from the accumulation buffer as 16 s where
+//! f < 3, and as 16 s − 1 from there on, which 12 texels or more can reach. 0 to 14 texels give 16 s
+//! (three full phases are certain for 15), 12 to 16 give 16 s − 1: 15 + 5 = 20 levels
+//! ([`Accumulation::Bytes`]).
 //!
 //! Brabec & Seidel 2001, "Hardware-accelerated rendering of antialiased shadows with shadow maps", §4.
 
-use super::{Bias, Binding, Constant, Encode, Family, Map, Page, Technique};
+use super::{BiasTerms, Binding, Constant, Encode, Family, Map, Page, Technique};
 use crate::{
     capabilities::Capabilities,
     error::Unsupported,
@@ -42,7 +45,7 @@ choice! {
     Accumulation {
         /// In floats.
         Exact = "exact",
-        /// In 8 bits, cut to whole numbers.
+        /// In bytes that are rounded once, from a frame buffer of 8 bits: 20 levels from 4×4.
         Bytes = "bytes",
     }
 }
@@ -116,8 +119,8 @@ impl Technique for Packed {
     fn parts(&self, _: &Capabilities) -> Vec<&'static str> {
         vec![self.precision.part()]
     }
-    fn bias(&self) -> Bias {
-        Bias::COMPARISON
+    fn bias(&self) -> BiasTerms {
+        BiasTerms::COMPARISON
     }
     fn depth_step(&self) -> f32 {
         self.precision.step()

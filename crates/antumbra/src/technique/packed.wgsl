@@ -2,7 +2,7 @@
 
 /// Phases along one side: one for a footprint of 2×2 texels, two for one of 4×4.
 const packed_phases: u32 = 1;
-/// 1 to add phases up in 8 bits, as the paper's hardware did.
+/// 1 for phases and their mean in 8 bits, as in the paper's frame buffer.
 const packed_in_bytes: u32 = 0;
 
 /// The 3×3 colour convolution of Brabec & Seidel 2001, §4: red from the lower left neighbour, green from
@@ -23,10 +23,14 @@ fn packed_shadow(four: vec4f, depth: f32, gain: f32, half_texel: vec2f) -> f32 {
     return dot(select(vec4f(0.25), vec4f(0.0), references <= four), vec4f(1.0));
 }
 
-/// What a phase leaves in an accumulation buffer of 8 bits: a quarter of 64 per shadowed texel, of 255
-/// where all four are, cut to whole numbers; as a share of what is left of a full shadow.
-fn packed_bytes(shadow: f32) -> f32 {
-    return floor(min(256.0 * shadow, 255.0) / 4.0) / 63.0;
+/// What a phase leaves in a frame buffer of 8 bits: 64 for every shadowed texel, 255 where all four are.
+fn packed_byte(shadow: f32) -> f32 {
+    return min(256.0 * shadow, 255.0);
+}
+
+/// What an accumulation buffer gives back to a frame buffer of 8 bits, as a share of 255.
+fn packed_returned(mean: f32) -> f32 {
+    return floor(mean + 0.5) / 255.0;
 }
 
 /// Mean of comparisons with the 2×2 or 4×4 texels around the corner that is nearest to uv: one fetch of
@@ -43,8 +47,9 @@ fn packed_visibility(packed: texture_2d_array<f32>, uv: vec2f, view: u32, depth:
             let four = textureLoad(packed, clamp(vec2i(phase), vec2i(0), vec2i(size) - 1), view, 0);
             let gain = dot(plane, (phase + vec2f(0.0, 1.0)) * texel - uv);
             let shadow = packed_shadow(four, depth, gain, 0.5 * plane * texel);
-            sum += select(shadow, packed_bytes(shadow), packed_in_bytes == 1u);
+            sum += select(shadow, packed_byte(shadow), packed_in_bytes == 1u);
         }
     }
-    return 1.0 - sum / f32(packed_phases * packed_phases);
+    let mean = sum / f32(packed_phases * packed_phases);
+    return 1.0 - select(mean, packed_returned(mean), packed_in_bytes == 1u);
 }
