@@ -23,6 +23,9 @@ pub(crate) enum Command {
     Render(Render),
     /// Time techniques and the ray tracer, without scoring
     Bench(Bench),
+    /// Measure what biases cost and give: acne, detached shadows, error
+    #[command(after_help = BIAS_EXAMPLES)]
+    Bias(Bias),
     /// Plot how techniques reconstruct the step of the shadow test
     #[command(after_help = CURVE_EXAMPLES)]
     Curve(Curve),
@@ -58,6 +61,13 @@ const RENDER_EXAMPLES: &str = "Examples:
   antumbra render model.glb --technique pcf.kernel=7 --show visibility -o visibility.exr
   antumbra render fence -t esm.classifier=zmax --show classes -o failed.png
   antumbra render model.glb --technique truth -o truth.png";
+
+const BIAS_EXAMPLES: &str = "Examples:
+  antumbra bias contact spheres
+  antumbra bias model.glb --techniques pcf.kernel=7 --settings auto none constant_texels=2
+
+Settings: auto, none, or terms joined by commas, each in the unit of its name: constant_texels,
+slope_texels, normal_offset_texels, receiver_plane (0 to 1), depth_steps.";
 
 const CURVE_EXAMPLES: &str = "Examples:
   antumbra curve csm esm esm.c=20 evsm --range -0.05,0.15 -o step.svg
@@ -140,6 +150,9 @@ pub(crate) struct Render {
     /// A technique with settings, or `truth` for ray-traced hard shadows
     #[arg(short, long, default_value = "esm", value_name = "TECHNIQUE")]
     pub(crate) technique: String,
+    /// auto, none, or terms such as constant_texels=1,receiver_plane=1 (see `antumbra bias --help`)
+    #[arg(long, default_value = "auto", value_name = "BIAS")]
+    pub(crate) bias: String,
     /// What to write
     #[arg(long, value_enum, default_value_t = Show::Picture)]
     pub(crate) show: Show,
@@ -173,6 +186,54 @@ pub(crate) struct Bench {
     #[arg(long)]
     pub(crate) json: bool,
 }
+
+#[derive(Debug, Args)]
+pub(crate) struct Bias {
+    /// .glb, .gltf or .obj files, or names of built-in scenes
+    #[arg(required = true, value_name = "SCENE")]
+    pub(crate) scenes: Vec<String>,
+    /// Techniques with settings, or all, all-comparison, all-basis
+    #[arg(long, num_args = 1.., default_values = ["hard", "pcf"], value_name = "TECHNIQUE")]
+    pub(crate) techniques: Vec<String>,
+    /// The biases that each of them is given
+    #[arg(long, num_args = 1.., default_values = SETTINGS, value_name = "BIAS")]
+    pub(crate) settings: Vec<String>,
+    /// Seed of built-in scenes
+    #[arg(long, default_value_t = 1)]
+    pub(crate) seed: u64,
+    /// As for `compare`
+    #[arg(long, allow_hyphen_values = true, value_name = "CAMERA")]
+    pub(crate) camera: Option<String>,
+    /// As for `compare`
+    #[arg(long, allow_hyphen_values = true, value_name = "LIGHT")]
+    pub(crate) light: Option<String>,
+    /// Pixels across and down
+    #[arg(long, default_value = "640x480", value_name = "WxH")]
+    pub(crate) resolution: String,
+    /// Texels along one side of the shadow map
+    #[arg(long, default_value_t = 1024, value_name = "TEXELS")]
+    pub(crate) size: u32,
+    /// Kernel width of every technique that has one (unless its spec sets it)
+    #[arg(long, default_value_t = 5, value_name = "TEXELS")]
+    pub(crate) kernel: u32,
+    /// Print the rows as JSON instead of tables
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// The usual ones.
+const SETTINGS: [&str; 10] = [
+    "auto",
+    "none",
+    "constant_texels=1",
+    "constant_texels=2",
+    "constant_texels=4",
+    "slope_texels=1",
+    "slope_texels=2",
+    "normal_offset_texels=1",
+    "normal_offset_texels=2",
+    "receiver_plane=1",
+];
 
 #[derive(Debug, Args)]
 pub(crate) struct Curve {

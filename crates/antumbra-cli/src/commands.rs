@@ -10,6 +10,7 @@ use clap::CommandFactory;
 use std::io::Write;
 
 mod bench;
+mod bias;
 mod compare;
 mod curve;
 mod export;
@@ -25,6 +26,7 @@ pub(crate) fn run(arguments: Arguments) -> Result<()> {
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Render(arguments) => render::run(&arguments),
         Command::Bench(arguments) => bench::run(&arguments),
+        Command::Bias(arguments) => bias::run(&arguments),
         Command::Curve(arguments) => curve::run(&arguments),
         Command::Maps(arguments) => maps::run(&arguments),
         Command::Reproduce(arguments) => reproduce::run(&arguments),

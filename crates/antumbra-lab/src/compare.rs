@@ -24,7 +24,7 @@ mod contestant;
 mod facts;
 mod truths;
 
-pub use contestant::{Contestant, enter};
+pub use contestant::{Contestant, enter, enter_biased};
 pub use facts::{adapter_facts, memory, work};
 use truths::{Truth, Truths};
 

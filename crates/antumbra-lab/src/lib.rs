@@ -4,10 +4,11 @@
 //! [`compare::compare`] does it all: [`stage`] draws what casters leave and what the camera sees,
 //! [`lighting`] turns that into visibility and pictures, `antumbra-truth` says what is right,
 //! [`metrics`] how far off a technique is, [`timing`] what it costs; [`results`] is the outcome as
-//! data and [`report`] as a page. [`curve`] and [`maps`] look at a technique alone; [`chart`]
-//! draws curves.
+//! data and [`report`] as a page. [`curve`] and [`maps`] look at a technique alone, [`bias`]
+//! at what keeps it from shadowing itself; [`chart`] draws curves.
 
 mod axis;
+pub mod bias;
 pub mod chart;
 pub mod classes;
 pub mod compare;

@@ -6,7 +6,7 @@ mod common;
 
 use antumbra::{
     Capabilities, Hard, Parameter, ShadowMap, Size, Stratified, Technique, Unsupported, technique,
-    technique::{Bias, Binding, Family, Map, Page, Uniform},
+    technique::{Bias, BiasTerms, Binding, Family, Map, Page, Uniform},
 };
 use antumbra_lab::{compare, gpu::Gpu, plane::Plane};
 use antumbra_scene::{AlphaMode, Camera, Image, Instance, Light, Material, Mesh, Scene, procedural};
@@ -106,13 +106,13 @@ fn holes(gpu: &antumbra_testing::Gpu) {
     let mut masked = Shot::new(gpu, &checkered(true), [320, 240]);
     let mut solid = Shot::new(gpu, &checkered(false), [320, 240]);
     let truth = masked.hard_truth();
-    let good = score(&masked.answer(&Hard::default(), 1024, None), &truth).pixel_match;
+    let good = score(&masked.answer(&Hard::default(), 1024, Bias::Auto), &truth).pixel_match;
     assert!(good >= 0.98, "pixel match {good}");
     // The shadow of the uncut quad is not that shadow.
-    let other = score(&solid.answer(&Hard::default(), 1024, None), &truth).pixel_match;
+    let other = score(&solid.answer(&Hard::default(), 1024, Bias::Auto), &truth).pixel_match;
     assert!(other < 0.98, "pixel match {other}");
     let dark = |shot: &mut Shot| {
-        shot.answer(&Hard::default(), 1024, None).values.iter().filter(|v| **v < 0.5).count() as f64
+        shot.answer(&Hard::default(), 1024, Bias::Auto).values.iter().filter(|v| **v < 0.5).count() as f64
     };
     let share = dark(&mut masked) / dark(&mut solid);
     assert!((0.4..0.6).contains(&share), "half of the fields are open, yet {share} of the shadow is left");
@@ -169,7 +169,7 @@ fn derivatives(gpu: &antumbra_testing::Gpu) {
     };
     let mut worst = |picked: usize, expected: usize| {
         let weights = std::array::from_fn(|i| if i == picked { 1.0 } else { 0.0 });
-        let (maps, view) = shot.maps(&[&Gradients(weights)], 256, None);
+        let (maps, view) = shot.maps(&[&Gradients(weights)], 256, Bias::Auto);
         let matrix = view.clip_from_world.as_dmat4();
         let uv = |p: DVec3| matrix.transform_point3(p) * DVec3::new(0.5, -0.5, 1.0);
         let told = shot.visibility(&maps[0]);
@@ -221,7 +221,7 @@ fn spot(gpu: &antumbra_testing::Gpu) {
     let mut shot = Shot::new(gpu, &procedural::by_name("spot").unwrap().scene(1), [320, 240]);
     let techniques = compare::techniques(&["all".into()], KERNEL).unwrap();
     let all: Vec<&dyn Technique> = techniques.iter().map(|t| t.as_ref()).collect();
-    let (maps, view) = shot.maps(&all, 1024, None);
+    let (maps, view) = shot.maps(&all, 1024, Bias::Auto);
     let (hard, ideal) = (shot.hard_truth(), shot.light_space_ideal(&view));
     for map in &maps {
         let answer = shot.visibility(map);
@@ -236,8 +236,8 @@ fn spot(gpu: &antumbra_testing::Gpu) {
         let pixel_match = score(&answer, &hard).pixel_match;
         assert!(name != "hard" || pixel_match >= 0.97, "pixel match {pixel_match}");
         // Too little bias, and lit surfaces shadow themselves.
-        let early = Bias { constant_texels: -64.0, ..Bias::NONE };
-        let rmse = score(&shot.answer(map.technique(), 1024, Some(early)), &ideal).rmse;
+        let early = BiasTerms { constant_texels: -64.0, ..BiasTerms::NONE };
+        let rmse = score(&shot.answer(map.technique(), 1024, early.into()), &ideal).rmse;
         assert!(rmse > bound, "{name}: RMSE {rmse} with acne");
     }
 }
@@ -251,7 +251,7 @@ fn finer(gpu: &antumbra_testing::Gpu) {
     };
     for grid in [2, 3, 4] {
         let stratified = Stratified { grid, ..Stratified::default() };
-        let (maps, view) = shot.maps(&[&stratified], SIDE, None);
+        let (maps, view) = shot.maps(&[&stratified], SIDE, Bias::Auto);
         // The mean of a single texel is its depth.
         let plain = technique::parse("vsm.kernel=1,sampling=nearest").unwrap();
         let mut fine = ShadowMap::new(&shot.gpu.device, plain.as_ref(), Size::square(SIDE * grid)).unwrap();

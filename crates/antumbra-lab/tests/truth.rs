@@ -9,7 +9,10 @@
 
 mod common;
 
-use antumbra::{Technique, View, technique::Bias};
+use antumbra::{
+    Technique, View,
+    technique::{Bias, BiasTerms},
+};
 use antumbra_lab::{
     compare,
     metrics::{self, Score},
@@ -132,7 +135,7 @@ impl Truth {
     fn new(shot: &mut Shot) -> Self {
         let techniques = techniques();
         let all: Vec<&dyn Technique> = techniques.iter().map(|t| t.as_ref()).collect();
-        let (_, view) = shot.maps(&all, MAP, None);
+        let (_, view) = shot.maps(&all, MAP, Bias::Auto);
         let ideal = shot.light_space_ideal(&view);
         let tracer = Tracer::new(&shot.geometry).unwrap();
         let hits = tracer.primary(&shot.rays());
@@ -156,7 +159,7 @@ impl Sight {
     }
 
     fn answer(&mut self, technique: &dyn Technique) -> Plane {
-        let (mut maps, _) = self.shot.maps(&[technique], MAP, None);
+        let (mut maps, _) = self.shot.maps(&[technique], MAP, Bias::Auto);
         maps[0].prepare(&self.shot.gpu.queue, &[self.truth.view]).unwrap();
         self.shot.visibility(&maps[0])
     }
@@ -214,7 +217,7 @@ fn near_the_ideal(gpu: &Gpu, scene: usize) {
 fn broken() -> Vec<(&'static str, usize, Broken)> {
     let stored = |format, spec| Broken { format: Some(format), ..Broken::new(spec) };
     let uniform = |name, value, spec| Broken { uniform: Some((name, value)), ..Broken::new(spec) };
-    let unbiased = |spec| Broken { bias: Some(Bias::NONE), ..Broken::new(spec) };
+    let unbiased = |spec| Broken { bias: Some(BiasTerms::NONE), ..Broken::new(spec) };
     let zero = Broken::saying(
         "esm.kernel=5",
         "exp(c * depth), 0.0, 0.0",

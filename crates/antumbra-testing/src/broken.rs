@@ -2,7 +2,7 @@
 
 use antumbra::{
     Capabilities, Parameter, Technique, Unsupported, technique,
-    technique::{Bias, Binding, Caster, Class, Constant, DepthSpace, Map, Page, Pass, Uniform, Width},
+    technique::{BiasTerms, Binding, Caster, Class, Constant, DepthSpace, Map, Page, Pass, Uniform, Width},
 };
 
 /// A technique with one thing wrong; everything else is that of `inner`.
@@ -19,7 +19,7 @@ pub struct Broken {
     /// Storage that it was not made for.
     pub format: Option<wgpu::TextureFormat>,
     /// A bias that it was not made for.
-    pub bias: Option<Bias>,
+    pub bias: Option<BiasTerms>,
     /// Takes one texel where it should interpolate by itself.
     pub careless: bool,
 }
@@ -110,7 +110,7 @@ impl Technique for Broken {
     fn classes(&self) -> &'static [Class] {
         self.inner.classes()
     }
-    fn bias(&self) -> Bias {
+    fn bias(&self) -> BiasTerms {
         self.bias.unwrap_or_else(|| self.inner.bias())
     }
     fn depth_step(&self) -> f32 {

@@ -41,6 +41,16 @@ pub enum SettingError {
         /// What is wrong with it.
         reason: String,
     },
+    /// Not a bias as text.
+    #[error(
+        "cannot read the bias '{text}': {reason}; write auto, none, or for example constant_texels=1,slope_texels=0.5"
+    )]
+    BiasSyntax {
+        /// The text that was given.
+        text: String,
+        /// What is wrong with it.
+        reason: String,
+    },
 }
 
 /// Why a [`ShadowMap`](crate::ShadowMap) cannot be made on this device.

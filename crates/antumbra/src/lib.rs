@@ -100,6 +100,7 @@
 //! # Features
 //!
 //! `serde`: settings of techniques, [`Filter`] and [`technique::Bias`] can be saved and loaded.
+mod bias;
 mod bound;
 mod capabilities;
 mod cascade;

@@ -40,15 +40,15 @@ pub struct Options {
     pub size: Size,
     /// Most views (cascades) at a time, at least 1.
     pub views: u32,
-    /// `None` takes what the technique needs by default.
-    pub bias: Option<Bias>,
+    /// Against shadows of a surface on itself.
+    pub bias: Bias,
     /// Share it between maps, so that no shader is compiled twice.
     pub pipelines: Option<Pipelines>,
 }
 
 impl From<Size> for Options {
     fn from(size: Size) -> Self {
-        Self { size, views: 1, bias: None, pipelines: None }
+        Self { size, views: 1, bias: Bias::Auto, pipelines: None }
     }
 }
 
@@ -61,7 +61,7 @@ impl Options {
     /// The same with that bias.
     #[must_use]
     pub fn bias(self, bias: Bias) -> Self {
-        Self { bias: Some(bias), ..self }
+        Self { bias, ..self }
     }
     /// The same with shared pipelines.
     #[must_use]
@@ -191,9 +191,8 @@ impl ShadowMap {
         };
         let compares = technique.bindings().contains(&Binding::Depth);
         let textures = Textures::new(device, &capabilities, &maps, options, depth, compares);
-        let bias = options.bias.unwrap_or_else(|| technique.bias());
-        bias.check()?;
-        let uniforms = Uniforms::new(device, technique, &maps, bias, options);
+        options.bias.check()?;
+        let uniforms = Uniforms::new(device, technique, &maps, options);
         let jitter = technique.jitter();
         let steps = pass::plan(technique, &capabilities, &maps, options.size);
         let draws = (0..options.views)

@@ -163,6 +163,10 @@ impl ShaderText {
     }
 }
 
+/// What projecting, interpolating and storing as a float do to a projected depth: eight units in the
+/// last place from ½ to 1.
+const ROUNDING: &str = "4.8e-7";
+
 /// WGSL type of a binding.
 fn wgsl_type(binding: Binding, maps: &[Map]) -> &'static str {
     match binding {
@@ -188,7 +192,7 @@ pub(crate) fn receiver(
         technique.widths().iter().map(|(width, _)| format!(", width_{width}: f32")).collect();
     let mut glue = format!(
         "struct ShadowView {{ clip_from_world: mat4x4f, depth_plane: vec4f, to_light: vec4f, texel_world: f32, near_over_far: f32, reach_x: f32, reach_y: f32{widths} }}\n\
-         struct ShadowUniforms {{\n    views: array<ShadowView, {views}>,\n    view_count: u32, width: f32, height: f32,\n    constant_texels: f32, slope_texels: f32, normal_offset_texels: f32,\n    receiver_plane: f32, constant_depth: f32,\n"
+         struct ShadowUniforms {{\n    views: array<ShadowView, {views}>,\n    view_count: u32, width: f32, height: f32,\n    constant_texels: f32, slope_texels: f32, normal_offset_texels: f32,\n    receiver_plane: f32, constant_depth: f32, float_steps: f32,\n"
     );
     for (uniform, _) in technique.uniforms() {
         let _ = writeln!(glue, "    setting_{uniform}: f32,");
@@ -208,12 +212,15 @@ pub(crate) fn receiver(
     let uniforms = technique.uniforms().into_iter().map(|(uniform, _)| format!(", shadow.setting_{uniform}"));
     let widths = technique.widths().into_iter().map(|(width, _)| format!(", (*light).width_{width}"));
     let settings: String = uniforms.chain(widths).collect();
-    let (depth, slopes, scale) = match technique.depth_space() {
-        DepthSpace::Raster => ("ndc.z", "vec2f(s.z, t.z)", "raster_slope(linear, (*light).near_over_far)"),
+    let (depth, slopes, scale, rounding) = match technique.depth_space() {
+        DepthSpace::Raster => {
+            ("ndc.z", "vec2f(s.z, t.z)", "raster_slope(linear, (*light).near_over_far)", ROUNDING.to_string())
+        }
         DepthSpace::Linear => (
             "linear",
             "vec2f(dot((*light).depth_plane.xyz, tangent), dot((*light).depth_plane.xyz, bitangent))",
             "1.0",
+            format!("{ROUNDING} / raster_slope(linear, (*light).near_over_far)"),
         ),
     };
     // Other families do not compare texels one by one: what they do with the plane is no bias.
@@ -232,6 +239,7 @@ pub(crate) fn receiver(
             .replace("{depth}", depth)
             .replace("{slopes}", slopes)
             .replace("{scale}", scale)
+            .replace("{rounding}", &rounding)
             .replace("{call}", &call);
     };
     function("visibility", "f32", "1.0");

@@ -15,7 +15,10 @@ use crate::{
 use glam::Vec2;
 use std::fmt::Debug;
 
-pub use crate::kernel::Width;
+pub use crate::{
+    bias::{Bias, BiasTerms},
+    kernel::Width,
+};
 
 /// How a technique gets from depth to visibility.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -173,70 +176,6 @@ pub struct Class {
     pub colour: [u8; 3],
 }
 
-/// Receiver bias: how far the receiver's depth is pulled towards the light before it is compared.
-///
-/// [`Technique::bias`] gives what a technique needs by itself. The steeper a receiver, the deeper the
-/// texels of a kernel reach into it: following its plane ([`receiver_plane`](Self::receiver_plane))
-/// removes that exactly, wherever the surface is flat, and leaves rounding and curvature to the other
-/// terms.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Bias {
-    /// Along the light, in texels (world size of one texel at the receiver).
-    pub constant_texels: f32,
-    /// Times the depth that the receiver's plane gains over one texel in x plus one in y. Without
-    /// `receiver_plane` one half covers the distance from a point to the centre of its texel.
-    pub slope_texels: f32,
-    /// Along the receiver's normal, in texels.
-    pub normal_offset_texels: f32,
-    /// Share of the receiver's plane that comparisons follow uphill, 0 (every texel is compared with
-    /// the receiver's own depth) to 1. The comparison family alone reads it.
-    pub receiver_plane: f32,
-    /// Towards the light, in steps of the stored depth ([`Technique::depth_step`]); one half covers
-    /// rounding.
-    pub depth_steps: f32,
-}
-
-impl Bias {
-    /// No bias at all.
-    pub const NONE: Self = Self {
-        constant_texels: 0.0,
-        slope_texels: 0.0,
-        normal_offset_texels: 0.0,
-        receiver_plane: 0.0,
-        depth_steps: 0.0,
-    };
-
-    /// What comparisons of single texels need: the plane, half a step of the stored depth, and a
-    /// little for rounding of the rasteriser (vertices snap to 1/256 texel) and for curvature.
-    pub(crate) const COMPARISON: Self = Self {
-        constant_texels: 0.05,
-        slope_texels: 0.05,
-        normal_offset_texels: 0.1,
-        receiver_plane: 1.0,
-        depth_steps: 0.5,
-    };
-
-    /// A bias that is not a number would shadow everything without a word.
-    pub(crate) fn check(&self) -> Result<(), SettingError> {
-        let fields = [
-            ("constant_texels", self.constant_texels),
-            ("slope_texels", self.slope_texels),
-            ("normal_offset_texels", self.normal_offset_texels),
-            ("receiver_plane", self.receiver_plane),
-            ("depth_steps", self.depth_steps),
-        ];
-        match fields.into_iter().find(|(_, value)| !value.is_finite()) {
-            None => Ok(()),
-            Some((name, value)) => Err(SettingError::OutOfRange {
-                parameter: format!("bias.{name}"),
-                value: value.to_string(),
-                allowed: "finite".into(),
-            }),
-        }
-    }
-}
-
 /// The depth that a technique's visibility function receives.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum DepthSpace {
@@ -252,7 +191,7 @@ pub enum DepthSpace {
 /// `x_visibility(bindings…, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f,
 /// ddy: vec2f, uniforms…, widths…) -> f32`: `uv` in the map, y down; `depth` of the receiver, bias applied,
 /// in [`Technique::depth_space`]; `plane`, the depth that the receiver's plane gains per unit of
-/// `uv` (times [`Bias::receiver_plane`] in the comparison family); `ddx`, `ddy`, the change of `uv` from this pixel to the next. The result is 0 (in shadow)
+/// `uv` (times [`BiasTerms::receiver_plane`] in the comparison family); `ddx`, `ddy`, the change of `uv` from this pixel to the next. The result is 0 (in shadow)
 /// to 1 (lit).
 pub trait Technique: Debug + Send + Sync {
     /// Name, title, family, paper.
@@ -306,9 +245,9 @@ pub trait Technique: Debug + Send + Sync {
     fn classes(&self) -> &'static [Class] {
         &[]
     }
-    /// The bias that it needs by default.
-    fn bias(&self) -> Bias {
-        Bias::NONE
+    /// What [`Bias::Auto`] stands for.
+    fn bias(&self) -> BiasTerms {
+        BiasTerms::NONE
     }
     /// Steps in which it stores depth, as a share of the depth range; 0 for floats.
     fn depth_step(&self) -> f32 {

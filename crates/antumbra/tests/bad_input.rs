@@ -8,7 +8,7 @@ mod common;
 use antumbra::{
     Capabilities, Csm, Esm, Evsm, Filter, Hard, LightError, NoProbe, Options, Pcf, Pipelines, Sampling,
     SettingError, ShadowMap, Size, Technique, Unsupported, Vsm, technique,
-    technique::{Bias, evsm},
+    technique::{BiasTerms, evsm},
 };
 use antumbra_testing::{Gpu, Trials};
 
@@ -120,12 +120,12 @@ fn settings_in_public_fields(gpu: &Gpu) {
 }
 
 fn bias(gpu: &Gpu) {
-    let nan = Bias { slope_texels: f32::NAN, ..Bias::NONE };
+    let nan = BiasTerms { slope_texels: f32::NAN, ..BiasTerms::NONE }.into();
     says(
         &refusal(gpu, &Hard::default(), Options::from(SIZE).bias(nan)),
         &["bias.slope_texels", "NaN", "finite"],
     );
-    let endless = Bias { constant_texels: f32::INFINITY, ..Bias::NONE };
+    let endless = BiasTerms { constant_texels: f32::INFINITY, ..BiasTerms::NONE }.into();
     says(
         &refusal(gpu, &Hard::default(), Options::from(SIZE).bias(endless)),
         &["bias.constant_texels", "inf"],

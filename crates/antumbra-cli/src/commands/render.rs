@@ -4,7 +4,7 @@ use crate::{
     arguments::{Render, Show},
     scene,
 };
-use antumbra::technique;
+use antumbra::technique::{self, Bias};
 use antumbra_lab::{
     classes::{self, ClassShare},
     compare::{self, Contestant},
@@ -28,6 +28,7 @@ pub(crate) fn run(arguments: &Render) -> Result<()> {
         _ => bail!("{}: the output must end in .png or .exr", arguments.output.display()),
     }
     scene::check(&arguments.scene)?;
+    let bias: Bias = arguments.bias.parse()?;
     let truth = arguments.technique == "truth";
     let techniques = match truth {
         true => Vec::new(),
@@ -47,7 +48,8 @@ pub(crate) fn run(arguments: &Render) -> Result<()> {
         true => Vec::new(),
         false => {
             let (geometry, light) = (&setting.geometry, &setting.light);
-            compare::enter(&gpu, &mut stage, geometry, light, &techniques, arguments.scene.size)?.0
+            let entries: Vec<_> = techniques.into_iter().map(|technique| (technique, bias)).collect();
+            compare::enter_biased(&gpu, &mut stage, geometry, light, &entries, arguments.scene.size)?.0
         }
     };
     let mut encoder = gpu.device.create_command_encoder(&Default::default());

@@ -8,7 +8,7 @@ use crate::{
     stage::{Casters, Stage},
     timing::Entrant,
 };
-use antumbra::{Options, Pipelines, ShadowMap, Size, Technique, View, technique};
+use antumbra::{Options, Pipelines, ShadowMap, Size, Technique, View, technique, technique::Bias};
 use antumbra_scene::{Geometry, Light};
 use anyhow::{Context, Result};
 
@@ -46,11 +46,10 @@ impl Contestant {
     }
 }
 
-/// Makes a shadow map of `map_size` × `map_size` texels for every technique, sharing pipelines, and
-/// gives all of them the light's only view, and the stage the views that they draw casters for.
+/// [`enter_biased`] with [`Bias::Auto`] for all.
 ///
 /// # Errors
-/// Settings that the device cannot do (naming the technique), a light or camera without a view.
+/// As [`enter_biased`].
 pub fn enter(
     gpu: &Gpu,
     stage: &mut Stage,
@@ -59,10 +58,27 @@ pub fn enter(
     techniques: &[Box<dyn Technique>],
     map_size: u32,
 ) -> Result<(Vec<Contestant>, View)> {
+    let entries: Vec<_> = techniques.iter().map(|t| (t.clone(), Bias::Auto)).collect();
+    enter_biased(gpu, stage, geometry, light, &entries, map_size)
+}
+
+/// Makes a shadow map of `map_size` × `map_size` texels for every technique, sharing pipelines, and
+/// gives all of them the light's only view, and the stage the views that they draw casters for.
+///
+/// # Errors
+/// Settings that the device cannot do (naming the technique), a light or camera without a view.
+pub fn enter_biased(
+    gpu: &Gpu,
+    stage: &mut Stage,
+    geometry: &Geometry,
+    light: &Light,
+    entries: &[(Box<dyn Technique>, Bias)],
+    map_size: u32,
+) -> Result<(Vec<Contestant>, View)> {
     let pipelines = Pipelines::new(&gpu.device);
-    let mut contestants = Vec::with_capacity(techniques.len());
-    for technique in techniques {
-        let options = Options::from(Size::square(map_size)).pipelines(&pipelines);
+    let mut contestants = Vec::with_capacity(entries.len());
+    for (technique, bias) in entries {
+        let options = Options::from(Size::square(map_size)).pipelines(&pipelines).bias(*bias);
         let shadows = ShadowMap::new(&gpu.device, technique.as_ref(), options)
             .with_context(|| technique::spec(technique.as_ref()))?;
         let lookup = Lookup::new(gpu, stage, &shadows);

@@ -57,7 +57,7 @@ impl Shot {
         &self,
         techniques: &[&dyn Technique],
         size: u32,
-        bias: Option<Bias>,
+        bias: Bias,
     ) -> (Vec<ShadowMap>, View) {
         let options = Options { bias, ..Options::from(Size::square(size)) };
         let new = |t: &&dyn Technique| ShadowMap::new(&self.gpu.device, *t, options.clone()).unwrap();
@@ -84,7 +84,7 @@ impl Shot {
     }
 
     /// The same for a single technique.
-    pub(crate) fn answer(&mut self, technique: &dyn Technique, size: u32, bias: Option<Bias>) -> Plane {
+    pub(crate) fn answer(&mut self, technique: &dyn Technique, size: u32, bias: Bias) -> Plane {
         let (maps, _) = self.maps(&[technique], size, bias);
         self.visibility(&maps[0])
     }

@@ -4,7 +4,7 @@ use super::{Options, memory::MemoryItem};
 use crate::{
     kernel::{Adaptive, MOST_SIDE, Width},
     light::{Size, View},
-    technique::{Bias, Map, Pass, Technique},
+    technique::{BiasTerms, Map, Pass, Technique},
 };
 
 /// Rust side of `ShadowView` in the receiver's glue.
@@ -47,11 +47,10 @@ impl Uniforms {
         device: &wgpu::Device,
         technique: &dyn Technique,
         maps: &[Map],
-        bias: Bias,
         options: &Options,
     ) -> Self {
         let (width, height) = (options.size.width as f32, options.size.height as f32);
-        let scalars = scalars(technique, bias, options.size);
+        let scalars = scalars(technique, options.bias.terms(technique), options.size);
         let settings = technique.uniforms().len();
         let room = options.views as usize;
         let buffer = |label, size: u64| {
@@ -121,9 +120,9 @@ impl Uniforms {
     }
 }
 
-/// Size of the receivers' buffer: views, their count, seven scalars, settings.
+/// Size of the receivers' buffer: views, their count, eight scalars, settings.
 pub(super) fn bytes(technique: &dyn Technique, views: u32) -> u64 {
-    let scalars = 4 * (8 + technique.uniforms().len() as u64);
+    let scalars = 4 * (9 + technique.uniforms().len() as u64);
     (u64::from(views) * view_bytes(technique.widths().len()) + scalars).next_multiple_of(16)
 }
 
@@ -138,7 +137,7 @@ fn convert_bytes(settings: usize) -> u64 {
 }
 
 /// What follows `views` and `view_count`: size, bias, settings.
-fn scalars(technique: &dyn Technique, bias: Bias, size: Size) -> Vec<f32> {
+fn scalars(technique: &dyn Technique, bias: BiasTerms, size: Size) -> Vec<f32> {
     let (width, height) = (size.width as f32, size.height as f32);
     let fixed = [
         width,
@@ -148,6 +147,7 @@ fn scalars(technique: &dyn Technique, bias: Bias, size: Size) -> Vec<f32> {
         bias.normal_offset_texels,
         bias.receiver_plane,
         bias.depth_steps * technique.depth_step(),
+        bias.depth_steps,
     ];
     fixed.into_iter().chain(technique.uniforms().into_iter().map(|(_, value)| value)).collect()
 }

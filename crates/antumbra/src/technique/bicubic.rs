@@ -6,7 +6,7 @@
 //!
 //! Sigg & Hadwiger 2005, "Fast third-order texture filtering", GPU Gems 2, ch. 20.
 
-use super::{Bias, Binding, Constant, DepthSpace, Family, Map, Page, Technique};
+use super::{BiasTerms, Binding, Constant, DepthSpace, Family, Map, Page, Technique};
 use crate::{capabilities::Capabilities, error::Unsupported, parameter::Parameter, precision::Precision};
 
 /// Bicubic percentage-closer filtering. 4 bilinear lookups; 4 bytes per texel (32-bit depth).
@@ -44,8 +44,8 @@ impl Technique for Bicubic {
     fn parts(&self, _: &Capabilities) -> Vec<&'static str> {
         vec![self.precision.part()]
     }
-    fn bias(&self) -> Bias {
-        Bias::COMPARISON
+    fn bias(&self) -> BiasTerms {
+        BiasTerms::COMPARISON
     }
     fn depth_step(&self) -> f32 {
         self.precision.step()

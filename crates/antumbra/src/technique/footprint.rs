@@ -8,7 +8,7 @@
 //! Reeves, Salesin, Cook 1987, "Rendering antialiased shadows with depth maps"; Brabec & Seidel 2001,
 //! §6, ask for it.
 
-use super::{Bias, Binding, Constant, DepthSpace, Family, Map, Page, Technique};
+use super::{BiasTerms, Binding, Constant, DepthSpace, Family, Map, Page, Technique};
 use crate::{
     capabilities::Capabilities,
     error::Unsupported,
@@ -65,8 +65,8 @@ impl Technique for Footprint {
     fn parts(&self, _: &Capabilities) -> Vec<&'static str> {
         vec![self.precision.part()]
     }
-    fn bias(&self) -> Bias {
-        Bias::COMPARISON
+    fn bias(&self) -> BiasTerms {
+        BiasTerms::COMPARISON
     }
     fn depth_step(&self) -> f32 {
         self.precision.step()

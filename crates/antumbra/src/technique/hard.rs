@@ -6,7 +6,7 @@
 //!
 //! Williams 1978, "Casting curved shadows on curved surfaces".
 
-use super::{Bias, Binding, Constant, DepthSpace, Family, Map, Page, Technique};
+use super::{BiasTerms, Binding, Constant, DepthSpace, Family, Map, Page, Technique};
 use crate::{
     capabilities::Capabilities, error::Unsupported, parameter::Parameter, precision::Precision,
 };
@@ -41,8 +41,8 @@ impl Technique for Hard {
     fn parts(&self, _: &Capabilities) -> Vec<&'static str> {
         vec![self.precision.part()]
     }
-    fn bias(&self) -> Bias {
-        Bias::COMPARISON
+    fn bias(&self) -> BiasTerms {
+        BiasTerms::COMPARISON
     }
     fn depth_step(&self) -> f32 {
         self.precision.step()

@@ -15,7 +15,7 @@
 //!
 //! Reeves, Salesin, Cook 1987, "Rendering antialiased shadows with depth maps".
 
-use super::{Bias, Binding, Constant, DepthSpace, Family, Map, Page, Technique};
+use super::{BiasTerms, Binding, Constant, DepthSpace, Family, Map, Page, Technique};
 use crate::{
     capabilities::Capabilities,
     error::Unsupported,
@@ -146,8 +146,8 @@ impl Technique for Pcf {
         };
         vec![taps, self.precision.part()]
     }
-    fn bias(&self) -> Bias {
-        Bias::COMPARISON
+    fn bias(&self) -> BiasTerms {
+        BiasTerms::COMPARISON
     }
     fn depth_step(&self) -> f32 {
         self.precision.step()

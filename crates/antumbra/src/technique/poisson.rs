@@ -10,7 +10,7 @@
 //!
 //! Vogel 1979, "A better way to construct the sunflower head"; Jimenez 2014 (noise).
 
-use super::{Bias, Binding, Constant, DepthSpace, Family, Map, Page, Technique};
+use super::{BiasTerms, Binding, Constant, DepthSpace, Family, Map, Page, Technique};
 use crate::{
     capabilities::Capabilities,
     error::Unsupported,
@@ -102,8 +102,8 @@ impl Technique for Poisson {
         };
         vec![spin, self.precision.part()]
     }
-    fn bias(&self) -> Bias {
-        Bias::COMPARISON
+    fn bias(&self) -> BiasTerms {
+        BiasTerms::COMPARISON
     }
     fn depth_step(&self) -> f32 {
         self.precision.step()

@@ -10,7 +10,7 @@
 //! Lecocq, Marvie, Sourimant, Gautron 2014, "Sub-Pixel Shadow Mapping".
 
 use super::{
-    Bias, Binding, Caster, Class, Constant, Coverage, DepthSpace, Encode, Family, Map, Page, Technique,
+    BiasTerms, Binding, Caster, Class, Constant, Coverage, DepthSpace, Encode, Family, Map, Page, Technique,
 };
 use crate::{
     capabilities::Capabilities,
@@ -130,8 +130,8 @@ impl Technique for Spsm {
     fn parts(&self, _: &Capabilities) -> Vec<&'static str> {
         self.packing.parts()
     }
-    fn bias(&self) -> Bias {
-        Bias { constant_texels: 0.05, slope_texels: 0.05, ..Bias::NONE }
+    fn bias(&self) -> BiasTerms {
+        BiasTerms { constant_texels: 0.05, slope_texels: 0.05, ..BiasTerms::NONE }
     }
     fn depth_space(&self) -> DepthSpace {
         DepthSpace::Raster

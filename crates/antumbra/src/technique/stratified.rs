@@ -7,7 +7,7 @@
 //!
 //! Brabec & Seidel 2001, "Hardware-accelerated rendering of antialiased shadows with shadow maps", §3.
 
-use super::{Bias, Binding, Constant, Encode, Family, Map, Page, Technique};
+use super::{BiasTerms, Binding, Constant, Encode, Family, Map, Page, Technique};
 use crate::{
     capabilities::Capabilities,
     error::Unsupported,
@@ -83,8 +83,8 @@ impl Technique for Stratified {
     fn parts(&self, _: &Capabilities) -> Vec<&'static str> {
         vec![self.precision.part()]
     }
-    fn bias(&self) -> Bias {
-        Bias::COMPARISON
+    fn bias(&self) -> BiasTerms {
+        BiasTerms::COMPARISON
     }
     fn depth_step(&self) -> f32 {
         self.precision.step()

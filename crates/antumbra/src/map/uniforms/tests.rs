@@ -88,7 +88,7 @@ fn the_view_is_laid_out_alike_in_rust_and_wgsl() {
 }
 
 /// The bytes that `write` writes to the receivers' buffer.
-fn written(technique: &dyn Technique, bias: Bias, size: Size, views: &[View], room: usize) -> Vec<u8> {
+fn written(technique: &dyn Technique, bias: BiasTerms, size: Size, views: &[View], room: usize) -> Vec<u8> {
     let mut bytes = Vec::new();
     let widths: Vec<Width> = technique.widths().into_iter().map(|(_, width)| width).collect();
     receiver_bytes(&mut bytes, views, room, [0.25, 0.125], &widths, &scalars(technique, bias, size));
@@ -97,7 +97,7 @@ fn written(technique: &dyn Technique, bias: Bias, size: Size, views: &[View], ro
 
 #[test]
 fn what_is_written_lies_where_the_shader_reads_it() {
-    let bias = Bias {
+    let bias = BiasTerms {
         constant_texels: 1.5,
         slope_texels: 2.5,
         normal_offset_texels: 3.5,
@@ -135,6 +135,7 @@ fn what_is_written_lies_where_the_shader_reads_it() {
             ("normal_offset_texels".into(), 3.5),
             ("receiver_plane".into(), 0.75),
             ("constant_depth".into(), 4.5 * technique.depth_step()),
+            ("float_steps".into(), 4.5),
         ];
         expected.extend(technique.uniforms().into_iter().map(|(n, v)| (format!("setting_{n}"), v)));
         assert_eq!(members[0].0, "views");

@@ -1,0 +1,71 @@
+//! `antumbra bias`: acne against detached shadows.
+
+use super::table;
+use crate::{
+    arguments::{Bias, SceneArguments},
+    progress::Bar,
+    scene,
+};
+use antumbra_lab::{
+    bias::{self, Request},
+    compare,
+    gpu::Gpu,
+};
+use anyhow::Result;
+use std::io::{self, Write};
+
+pub(crate) fn run(arguments: &Bias) -> Result<()> {
+    let scene = |name: &String| SceneArguments {
+        scene: name.clone(),
+        seed: arguments.seed,
+        camera: arguments.camera.clone(),
+        light: arguments.light.clone(),
+        resolution: arguments.resolution.clone(),
+        size: arguments.size,
+        kernel: arguments.kernel,
+    };
+    let scenes: Vec<SceneArguments> = arguments.scenes.iter().map(scene).collect();
+    scenes.iter().try_for_each(scene::check)?;
+    let techniques = compare::techniques(&arguments.techniques, arguments.kernel)?;
+    let settings: Vec<_> = arguments.settings.iter().map(|text| text.parse()).collect::<Result<_, _>>()?;
+    let gpu = Gpu::new()?;
+    let out = &mut io::stdout();
+    let mut all = serde_json::Map::new();
+    for arguments_of_scene in &scenes {
+        let setting = scene::load(arguments_of_scene)?;
+        let request = Request {
+            geometry: &setting.geometry,
+            camera: &setting.camera,
+            light: &setting.light,
+            techniques: &techniques,
+            settings: &settings,
+            map_size: arguments.size,
+            resolution: setting.resolution,
+        };
+        let rows = {
+            let bar = Bar::new();
+            bias::study(&gpu, &request, &bar)?
+        };
+        if arguments.json {
+            all.insert(setting.name, serde_json::to_value(rows)?);
+            continue;
+        }
+        writeln!(out, "{}", setting.name)?;
+        let cells = |row: &bias::Row| {
+            vec![
+                row.technique.clone(),
+                row.bias.clone(),
+                format!("{:.3}", 100.0 * row.acne),
+                row.detached_texels.map_or("-".into(), |texels| format!("{texels:.2}")),
+                format!("{:.4}", row.rmse),
+                format!("{:.3}", 100.0 * row.over_darkening),
+            ]
+        };
+        let rows: Vec<Vec<String>> = rows.iter().map(cells).collect();
+        table::print(out, &["technique", "bias", "acne %", "detached texels", "RMSE", "dark %"], &rows)?;
+    }
+    if arguments.json {
+        writeln!(out, "{}", serde_json::to_string_pretty(&all)?)?;
+    }
+    Ok(())
+}

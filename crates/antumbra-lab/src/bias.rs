@@ -1,0 +1,224 @@
+//! What biases cost and give: acne against detached shadows.
+
+use crate::{
+    compare::{Progress, enter_biased, map_plane},
+    gpu::Gpu,
+    lighting::Lighting,
+    metrics::LIT_THRESHOLD,
+    plane::Plane,
+    stage::Stage,
+};
+use antumbra::{Kernel, Technique, View, Weights, technique, technique::Bias};
+use antumbra_scene::{Camera, Geometry, Light};
+use antumbra_truth::{CameraRays, Hit, Ray, Tracer, Visibility};
+use anyhow::{Context, Result};
+use glam::DVec3;
+use rayon::prelude::*;
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// Width of a bin of gaps between receiver and caster, texels.
+const BIN_TEXELS: f64 = 0.5;
+/// Gaps up to which shadows are looked at, texels.
+const FARTHEST_TEXELS: f64 = 16.0;
+/// Pixels that a bin must hold to be heard.
+const FEWEST: u32 = 8;
+/// Visibility in the ideal up to which a pixel's shadow may be missed: deeper inside than edges move by
+/// aliasing.
+const SHADOWED: f32 = 0.25;
+/// Tolerance within which an ideal counts as fully lit.
+const ROUNDING: f32 = 1e-3;
+
+/// What to look at.
+#[derive(Debug)]
+pub struct Request<'a> {
+    /// Triangles.
+    pub geometry: &'a Geometry,
+    /// Where they are seen from.
+    pub camera: &'a Camera,
+    /// What they are lit by.
+    pub light: &'a Light,
+    /// The techniques.
+    pub techniques: &'a [Box<dyn Technique>],
+    /// The biases that each of them is given.
+    pub settings: &'a [Bias],
+    /// Texels along one side of each map.
+    pub map_size: u32,
+    /// Pixels across and down.
+    pub resolution: [u32; 2],
+}
+
+/// One technique with one bias.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Row {
+    /// The technique with its settings.
+    pub technique: String,
+    /// The bias as text.
+    pub bias: String,
+    /// Share of the pixels that are fully lit in the ideal whose visibility is below ½.
+    pub acne: f64,
+    /// How much too early shadows end towards the casters that touch them, in texels of depth: the
+    /// share of pixels answered lit, integrated over the gap between receiver and caster from 0 to 16
+    /// texels. A constant bias of b texels gives b. Pixels are those whose visibility in the
+    /// ideal is at most ¼; `None` where there are none.
+    pub detached_texels: Option<f64>,
+    /// Root mean square error against the light-space ideal of the technique's kernel.
+    pub rmse: f64,
+    /// Mean of 1 − visibility over pixels that are fully lit in the ideal.
+    pub over_darkening: f64,
+}
+
+/// Renders every technique with every bias and compares with rays. A technique without a kernel is
+/// compared with the ideal of a single bilinear tap.
+///
+/// # Errors
+/// Settings that the device cannot do, a light or camera without a view, a lost device.
+pub fn study(gpu: &Gpu, request: &Request<'_>, progress: &dyn Progress) -> Result<Vec<Row>> {
+    let Request { geometry, camera, light, resolution, .. } = *request;
+    progress.step("upload");
+    let mut stage = Stage::new(gpu, geometry, camera, light, resolution)?;
+    let lighting = Lighting::new(gpu, &stage);
+    let entries: Vec<(Box<dyn Technique>, Bias)> = request
+        .techniques
+        .iter()
+        .flat_map(|technique| request.settings.iter().map(move |bias| (technique.clone(), *bias)))
+        .collect();
+    let (contestants, view) = enter_biased(gpu, &mut stage, geometry, light, &entries, request.map_size)?;
+    let tracer = Tracer::new(geometry)?;
+    let rays = CameraRays::new(camera, resolution[0], resolution[1])?;
+    progress.step("truth: gaps");
+    let gaps = gaps(&tracer, &rays, light, &view);
+    let mut ideals: BTreeMap<u32, Visibility> = BTreeMap::new();
+    for technique in request.techniques {
+        let width = kernel(technique.as_ref());
+        if !ideals.contains_key(&width) {
+            progress.step(&format!("truth: kernel of {width}"));
+            let taps =
+                Kernel::new(Weights::Gaussian, width, 0.0).taps.iter().map(|w| f64::from(*w)).collect();
+            let taps = antumbra_truth::Kernel::new(taps)?;
+            let ideal =
+                tracer.light_space_ideal(&rays, light, &taps, &map_plane(&view), &|s| progress.share(s));
+            ideals.insert(width, ideal);
+        }
+    }
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    stage.encode_surfaces(&mut encoder, None);
+    gpu.finish(encoder)?;
+    progress.step("render");
+    let mut rows = Vec::with_capacity(contestants.len());
+    for (contestant, (technique, bias)) in contestants.iter().zip(&entries) {
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        let shadows = &contestant.shadows;
+        shadows.encode(&mut encoder, |view, pass| stage.draw_casters(&contestant.casters, view, pass));
+        lighting.encode_lookup(&mut encoder, &stage, &contestant.lookup, Some(shadows), None);
+        gpu.finish(encoder)?;
+        let test = lighting.read_visibility(gpu)?;
+        let ideal = ideals.get(&kernel(technique.as_ref())).context("an ideal for every kernel")?;
+        let spec = technique::spec(technique.as_ref());
+        rows.push(row(spec, bias.to_string(), &test, ideal, &gaps).context("no pixel faces the light")?);
+        progress.share(rows.len() as f32 / entries.len() as f32);
+    }
+    Ok(rows)
+}
+
+/// Width of a technique's kernel.
+fn kernel(technique: &dyn Technique) -> u32 {
+    let mut technique = technique.boxed();
+    let parameters = technique.parameters();
+    parameters.iter().find(|p| p.name == "kernel").and_then(|p| p.value().parse().ok()).unwrap_or(1)
+}
+
+/// How far each receiver lies behind the first surface that its light meets, in texels; 0 where that is
+/// the receiver itself.
+fn gaps(tracer: &Tracer<'_>, rays: &CameraRays, light: &Light, view: &View) -> Vec<f64> {
+    let bounds = tracer.geometry().bounds();
+    let far = bounds.map_or(0.0, |b| 4.0 * f64::from(b.radius()));
+    let gap = |hit: &Hit| {
+        if !hit.is_hit() {
+            return 0.0;
+        }
+        let (origin, direction) = match *light {
+            Light::Directional { direction } => {
+                let direction = direction.as_dvec3().normalize();
+                (hit.position - far * direction, direction)
+            }
+            Light::Spot { position, .. } => {
+                let apex: DVec3 = position.as_dvec3();
+                (apex, (hit.position - apex).normalize())
+            }
+        };
+        let first = tracer.trace(&Ray { origin, direction });
+        let distance = view.clip_from_world.as_dmat4() * hit.position.extend(1.0);
+        let texel = f64::from(view.texel_world) * distance.w;
+        if first.is_hit() { (hit.position - first.position).dot(direction).max(0.0) / texel } else { 0.0 }
+    };
+    tracer.primary(rays).par_iter().map(gap).collect()
+}
+
+fn row(technique: String, bias: String, test: &Plane, ideal: &Visibility, gaps: &[f64]) -> Option<Row> {
+    let mean = |sum: f64, count: u32| (count > 0).then(|| sum / f64::from(count));
+    let (mut lit, mut acne, mut dark, mut all, mut squares) = (0, 0, 0.0, 0, 0.0);
+    let mut bins = [(0, 0); (FARTHEST_TEXELS / BIN_TEXELS) as usize];
+    for (((v, ideal), shadowable), gap) in
+        test.values.iter().zip(&ideal.values).zip(&ideal.shadowable).zip(gaps)
+    {
+        if !shadowable {
+            continue;
+        }
+        all += 1;
+        squares += f64::from(v - ideal).powi(2);
+        if *ideal >= 1.0 - ROUNDING {
+            lit += 1;
+            acne += u32::from(*v < LIT_THRESHOLD);
+            dark += f64::from(1.0 - v);
+        }
+        if let Some(bin) = bins.get_mut((gap / BIN_TEXELS) as usize)
+            && *ideal <= SHADOWED
+        {
+            bin.0 += u32::from(*v >= LIT_THRESHOLD);
+            bin.1 += 1;
+        }
+    }
+    Some(Row {
+        technique,
+        bias,
+        acne: mean(acne.into(), lit).unwrap_or(0.0),
+        detached_texels: detached(&bins),
+        rmse: mean(squares, all)?.sqrt(),
+        over_darkening: mean(dark, lit).unwrap_or(0.0),
+    })
+}
+
+/// Integral of the share of lit pixels (lit, all) over the gap. Bins with too few pixels take the share
+/// of their neighbour.
+fn detached(bins: &[(u32, u32)]) -> Option<f64> {
+    let share = |(lit, all): &(u32, u32)| (*all >= FEWEST).then(|| f64::from(*lit) / f64::from(*all));
+    let mut last = bins.iter().find_map(share)?;
+    Some(
+        bins.iter()
+            .map(|bin| {
+                last = share(bin).unwrap_or(last);
+                last * BIN_TEXELS
+            })
+            .sum(),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_constant_bias_detaches_shadows_by_itself() {
+        for bias in [0.0, 1.0, 3.0] {
+            let lit = |bin: usize| (bin as f64 + 0.5) * BIN_TEXELS < bias;
+            let bins: Vec<_> = (0..32).map(|bin| (if lit(bin) { 100 } else { 0 }, 100)).collect();
+            assert!((detached(&bins).unwrap() - bias).abs() < 1e-9);
+            // One bin that hardly anything is known of changes nothing.
+            let mut sparse = bins;
+            sparse[20] = (1, 1);
+            assert!((detached(&sparse).unwrap() - bias).abs() < 1e-9);
+        }
+        assert_eq!(detached(&[(0, 3)]), None);
+    }
+}

@@ -1,0 +1,144 @@
+//! Bias: what keeps a surface from shadowing itself.
+
+use crate::{error::SettingError, technique::Technique};
+use std::{fmt, str::FromStr};
+
+/// How far receivers are pulled towards the light before they are compared.
+///
+/// As text (`parse`, `to_string`): `auto`, `none`, or terms such as `constant_texels=1,receiver_plane=1`;
+/// those not named are 0.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Bias {
+    /// What the technique needs ([`Technique::bias`]), no more.
+    #[default]
+    Auto,
+    /// These terms, whatever the technique.
+    Fixed(BiasTerms),
+}
+
+impl Bias {
+    /// No bias at all.
+    pub const NONE: Self = Self::Fixed(BiasTerms::NONE);
+
+    /// The terms for a technique.
+    #[must_use]
+    pub fn terms(self, technique: &dyn Technique) -> BiasTerms {
+        match self {
+            Self::Auto => technique.bias(),
+            Self::Fixed(terms) => terms,
+        }
+    }
+
+    /// A bias that is not a number would shadow everything without a word.
+    pub(crate) fn check(self) -> Result<(), SettingError> {
+        let Self::Fixed(mut terms) = self else { return Ok(()) };
+        match terms.named().into_iter().find(|(_, value)| !value.is_finite()) {
+            None => Ok(()),
+            Some((name, value)) => Err(SettingError::OutOfRange {
+                parameter: format!("bias.{name}"),
+                value: value.to_string(),
+                allowed: "finite".into(),
+            }),
+        }
+    }
+}
+
+impl From<BiasTerms> for Bias {
+    fn from(terms: BiasTerms) -> Self {
+        Self::Fixed(terms)
+    }
+}
+
+impl fmt::Display for Bias {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self::Fixed(mut terms) = *self else { return f.write_str("auto") };
+        let set = terms.named().into_iter().filter(|(_, value)| **value != 0.0);
+        let set: Vec<String> = set.map(|(name, value)| format!("{name}={value}")).collect();
+        f.write_str(if set.is_empty() { "none" } else { "" })?;
+        f.write_str(&set.join(","))
+    }
+}
+
+impl FromStr for Bias {
+    type Err = SettingError;
+
+    fn from_str(text: &str) -> Result<Self, SettingError> {
+        let mut terms = BiasTerms::NONE;
+        match text {
+            "auto" => return Ok(Self::Auto),
+            "none" => return Ok(Self::NONE),
+            _ => {}
+        }
+        for setting in text.split(',') {
+            let syntax = |reason: String| SettingError::BiasSyntax { text: text.into(), reason };
+            let (name, value) =
+                setting.split_once('=').ok_or_else(|| syntax(format!("'{setting}' has no '='")))?;
+            let mut named = terms.named();
+            let known = named.each_ref().map(|(name, _)| *name).join(", ");
+            let term = named.iter_mut().find(|(n, _)| *n == name.trim());
+            let (_, term) = term.ok_or_else(|| syntax(format!("there is no '{name}', only {known}")))?;
+            **term = value
+                .trim()
+                .parse()
+                .map_err(|_| syntax(format!("'{value}' is no number, as {name} must be")))?;
+        }
+        Self::Fixed(terms).check()?;
+        Ok(Self::Fixed(terms))
+    }
+}
+
+/// A [`Bias`] in numbers; terms add up.
+///
+/// The steeper a receiver, the deeper the texels of a kernel reach into it: following its plane
+/// ([`receiver_plane`](Self::receiver_plane)) removes that exactly, wherever the surface is flat, and
+/// leaves rounding and curvature to the other terms.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct BiasTerms {
+    /// Along the light, in texels (world size of one texel at the receiver).
+    pub constant_texels: f32,
+    /// Times the depth that the receiver's plane gains over one texel in x plus one in y. Without
+    /// `receiver_plane` one half covers the distance from a point to the centre of its texel.
+    pub slope_texels: f32,
+    /// Along the receiver's normal, in texels.
+    pub normal_offset_texels: f32,
+    /// Share of the receiver's plane that comparisons follow uphill, 0 (every texel is compared with
+    /// the receiver's own depth) to 1. The comparison family alone reads it.
+    pub receiver_plane: f32,
+    /// Towards the light, in steps of the stored depth ([`Technique::depth_step`]); one half covers
+    /// rounding.
+    pub depth_steps: f32,
+}
+
+impl BiasTerms {
+    /// No bias at all.
+    pub const NONE: Self = Self {
+        constant_texels: 0.0,
+        slope_texels: 0.0,
+        normal_offset_texels: 0.0,
+        receiver_plane: 0.0,
+        depth_steps: 0.0,
+    };
+
+    /// What comparisons of single texels need: the plane, half a step of the stored depth, and a
+    /// little for rounding of the rasteriser (vertices snap to 1/256 texel) and for curvature.
+    pub(crate) const COMPARISON: Self = Self {
+        constant_texels: 0.05,
+        slope_texels: 0.05,
+        normal_offset_texels: 0.1,
+        receiver_plane: 1.0,
+        depth_steps: 0.5,
+    };
+
+    /// The terms by name.
+    fn named(&mut self) -> [(&'static str, &mut f32); 5] {
+        [
+            ("constant_texels", &mut self.constant_texels),
+            ("slope_texels", &mut self.slope_texels),
+            ("normal_offset_texels", &mut self.normal_offset_texels),
+            ("receiver_plane", &mut self.receiver_plane),
+            ("depth_steps", &mut self.depth_steps),
+        ]
+    }
+}
