@@ -107,8 +107,6 @@ struct Draw {
     targets: Vec<wgpu::TextureView>,
     /// The caster pass that it follows, if not the last.
     cast: Option<u32>,
-    /// Whether channels that it does not write stay.
-    keeps: bool,
 }
 
 /// Textures, pipelines and bindings of one technique at one size.
@@ -190,10 +188,11 @@ impl ShadowMap {
             _ => None,
         };
         let compares = technique.bindings().contains(&Binding::Depth);
-        let textures = Textures::new(device, &capabilities, &maps, options, depth, compares);
+        let jitter = technique.jitter();
+        let casting = (compares, jitter.len() as u32);
+        let textures = Textures::new(device, &capabilities, &maps, options, depth, casting);
         options.bias.check()?;
         let uniforms = Uniforms::new(device, technique, &maps, options);
-        let jitter = technique.jitter();
         let steps = pass::plan(technique, &capabilities, &maps, options.size);
         let draws = (0..options.views)
             .map(|view| {
@@ -284,12 +283,12 @@ impl ShadowMap {
         draw: &mut impl FnMut(&View, &mut RenderPass<'_>),
     ) {
         let target = self.triangles.is_some().then(|| self.textures.map_target(view, layer));
-        let target = target.map(|target| textures::written(target, false));
+        let target = target.map(textures::written);
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("shadow cast"),
             color_attachments: if target.is_some() { std::slice::from_ref(&target) } else { &[] },
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-                view: self.textures.caster_target(view),
+                view: self.textures.caster_target(view, cast),
                 depth_ops: Some(wgpu::Operations {
                     load: wgpu::LoadOp::Clear(1.0),
                     store: wgpu::StoreOp::Store,
@@ -477,7 +476,7 @@ fn draw_step(
     timestamp_writes: Option<wgpu::RenderPassTimestampWrites<'_>>,
 ) {
     let attachments: [_; MOST_TARGETS] =
-        std::array::from_fn(|i| draw.targets.get(i).map(|t| textures::written(t, draw.keeps)));
+        std::array::from_fn(|i| draw.targets.get(i).map(|t| textures::written(t)));
     let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
         label: Some(draw.label),
         color_attachments: &attachments[..draw.targets.len()],
@@ -502,7 +501,7 @@ fn draw(
 ) -> Draw {
     let format = |slot| match slot {
         Slot::Map(i) | Slot::Scratch(i) => maps[i].format,
-        Slot::Casters | Slot::Cast(..) => DEPTH_FORMAT,
+        Slot::Casters | Slot::Casts { .. } => DEPTH_FORMAT,
     };
     let formats: Vec<TextureFormat> = step.targets.iter().map(|t| format(t.slot)).collect();
     let pipeline = pipelines.get(step, &formats);
@@ -512,6 +511,5 @@ fn draw(
         Work::Draw => 0,
         Work::Lanes(lanes) => lanes.div_ceil(pass::WORKGROUP),
     };
-    let (cast, keeps) = (step.cast(), step.writes().1);
-    Draw { label: step.label, run: pipeline.run, groups, bind_group, targets, cast, keeps }
+    Draw { label: step.label, run: pipeline.run, groups, bind_group, targets, cast: step.cast() }
 }

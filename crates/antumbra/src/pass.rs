@@ -20,8 +20,15 @@ mod sum;
 pub(crate) enum Slot {
     /// The casters' depth of the view.
     Casters,
-    /// The depth of one of several caster passes of the view: its number, and how many there are.
-    Cast(u32, u32),
+    /// The depths of some of several caster passes of the view.
+    Casts {
+        /// Number of the first of them.
+        first: u32,
+        /// How many.
+        count: u32,
+        /// How many caster passes the view has.
+        of: u32,
+    },
     /// Entry of `Technique::maps`; layers count from the view's first.
     Map(usize),
     /// A few layers of the size and format of that map, between the two halves of a separable filter.
@@ -56,7 +63,7 @@ pub(crate) struct Step {
     /// A whole WGSL module with `vertex` and `fragment`, or with `compute`.
     pub(crate) shader: String,
     pub(crate) work: Work,
-    /// Layers from here on are bound as one array; the casters' depth is bound alone.
+    /// Layers from here on are bound as one array.
     pub(crate) source: Place,
     pub(crate) source_layers: u32,
     pub(crate) targets: Vec<Place>,
@@ -66,18 +73,8 @@ impl Step {
     /// The caster pass that it follows, if not the last.
     pub(crate) fn cast(&self) -> Option<u32> {
         match self.source.slot {
-            Slot::Cast(cast, _) => Some(cast),
+            Slot::Casts { first, count, .. } => Some(first + count - 1),
             _ => None,
-        }
-    }
-
-    /// The channels that it writes, and whether those of an earlier step stay.
-    pub(crate) fn writes(&self) -> (wgpu::ColorWrites, bool) {
-        use wgpu::ColorWrites as Writes;
-        const CHANNELS: [Writes; 4] = [Writes::RED, Writes::GREEN, Writes::BLUE, Writes::ALPHA];
-        match self.cast() {
-            Some(cast) => (CHANNELS[cast as usize % 4], !cast.is_multiple_of(4)),
-            None => (Writes::ALL, false),
         }
     }
 }
@@ -161,10 +158,8 @@ pub(crate) fn plan(technique: &dyn Technique, device: &Capabilities, maps: &[Map
     for (index, map) in maps.iter().enumerate() {
         let source = Source::new(technique, device, map);
         if casts > 1 {
-            steps.extend((0..casts).map(|cast| {
-                let step = source.plain(Run { map: index, first: cast / 4, count: 1 });
-                Step { source: Place { slot: Slot::Cast(cast, casts), ..step.source }, ..step }
-            }));
+            let layer = |first| Run { map: index, first: first / 4, count: 1 };
+            steps.extend((0..casts).step_by(4).map(|first| source.channels(first, casts, layer(first))));
             continue;
         }
         if let [Pass::Sum(table)] = map.passes.as_slice() {

@@ -9,7 +9,7 @@ use wgpu::{
     BindGroup, BindGroupLayout, BindingType, ComputePipeline, RenderPipeline, TextureFormat, TextureView,
 };
 
-type Key = (String, Vec<TextureFormat>, wgpu::ColorWrites);
+type Key = (String, Vec<TextureFormat>);
 
 /// The pipelines of the passes between casting and lighting, each compiled once. Clones share.
 #[derive(Debug, Clone)]
@@ -66,7 +66,7 @@ impl Pipelines {
     /// The pipeline of a step whose targets have these formats.
     pub(super) fn get(&self, step: &Step, formats: &[TextureFormat]) -> Pipeline {
         let mut made = self.made.lock().unwrap_or_else(PoisonError::into_inner);
-        made.entry((step.shader.clone(), formats.to_vec(), step.writes().0))
+        made.entry((step.shader.clone(), formats.to_vec()))
             .or_insert_with(|| self.compile(step, formats))
             .clone()
     }
@@ -79,7 +79,7 @@ impl Pipelines {
         compile: impl FnOnce(&wgpu::Device) -> RenderPipeline,
     ) -> RenderPipeline {
         let mut made = self.casters.lock().unwrap_or_else(PoisonError::into_inner);
-        let key = (shader.to_string(), formats.to_vec(), wgpu::ColorWrites::ALL);
+        let key = (shader.to_string(), formats.to_vec());
         made.entry(key).or_insert_with(|| compile(&self.device)).clone()
     }
 
@@ -117,9 +117,7 @@ impl Pipelines {
         layout: &wgpu::PipelineLayout,
         formats: &[TextureFormat],
     ) -> RenderPipeline {
-        let (write_mask, _) = step.writes();
-        let target = |format: &TextureFormat| wgpu::ColorTargetState { write_mask, ..(*format).into() };
-        let targets: Vec<_> = formats.iter().map(|f| Some(target(f))).collect();
+        let targets: Vec<_> = formats.iter().map(|f| Some((*f).into())).collect();
         self.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(step.label),
             layout: Some(layout),
@@ -159,8 +157,8 @@ impl Pipelines {
         let sampler = BindingType::Sampler(SamplerBindingType::NonFiltering);
         let floats = TextureSampleType::Float { filterable: false };
         let (source, uniform, sampler) = match (step.source.slot, step.work) {
-            (Slot::Casters | Slot::Cast(..), _) => {
-                (texture(TextureSampleType::Depth, Dimension::D2), Some(uniform), Some(sampler))
+            (Slot::Casters | Slot::Casts { .. }, _) => {
+                (texture(TextureSampleType::Depth, Dimension::D2Array), Some(uniform), Some(sampler))
             }
             (_, Work::Draw) => (texture(floats, Dimension::D2Array), Some(uniform), Some(sampler)),
             (_, Work::Lanes(_)) => (texture(TextureSampleType::Uint, Dimension::D2Array), None, None),
@@ -196,7 +194,7 @@ impl Pipelines {
         use wgpu::{BindGroupEntry, BindingResource};
         let sampler = Some(BindingResource::Sampler(&self.nearest));
         let (uniforms, sampler) = match (step.source.slot, step.work) {
-            (Slot::Casters | Slot::Cast(..), _) => (Some(uniforms), sampler),
+            (Slot::Casters | Slot::Casts { .. }, _) => (Some(uniforms), sampler),
             (_, Work::Draw) => (Some(uniforms), sampler),
             (_, Work::Lanes(_)) => (None, None),
         };

@@ -37,7 +37,7 @@ impl Kept {
 pub(super) struct Textures {
     casters: wgpu::Texture,
     casters_array: TextureView,
-    /// One per view; the same one again and again where all views share it.
+    /// Layers of the casters' depth, which views share unless there is one for each.
     caster_targets: Vec<TextureView>,
     casters_lifetime: Lifetime,
     maps: Vec<Kept>,
@@ -46,17 +46,18 @@ pub(super) struct Textures {
 }
 
 impl Textures {
-    /// Casters' depth has a layer per view if receivers compare it, else one that all views share.
+    /// Casters' depth has a layer per view if receivers compare it, else those that all views share: one
+    /// for each caster pass of a view, at most four.
     pub(super) fn new(
         device: &wgpu::Device,
         capabilities: &Capabilities,
         maps: &[Map],
         options: &Options,
         depth: Option<&wgpu::Texture>,
-        compares: bool,
+        (compares, casts): (bool, u32),
     ) -> Self {
         let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING;
-        let layers = if compares { options.views } else { 1 };
+        let layers = if compares { options.views } else { casts.min(4) };
         let casters = depth.cloned().unwrap_or_else(|| {
             texture(device, "casters' depth", options.size, layers, 1, DEPTH_FORMAT, usage)
         });
@@ -66,7 +67,7 @@ impl Textures {
             (None, false) => Lifetime::Transient,
         };
         let layers = casters.depth_or_array_layers();
-        let caster_targets = (0..options.views).map(|view| one(&casters, view.min(layers - 1), 0)).collect();
+        let caster_targets = (0..layers).map(|layer| one(&casters, layer, 0)).collect();
         let keep = |map: &Map| {
             let levels = pass::levels(map, options.size);
             let layers = map.layers * options.views;
@@ -94,9 +95,11 @@ impl Textures {
         &self.map_targets[view * self.maps[0].layers as usize + layer]
     }
 
-    /// Depth attachment of a view.
-    pub(super) fn caster_target(&self, view: usize) -> &TextureView {
-        &self.caster_targets[view]
+    /// Depth attachment of a caster pass of a view.
+    pub(super) fn caster_target(&self, view: usize, cast: usize) -> &TextureView {
+        // Four passes are converted together.
+        let layer = if self.casters_lifetime == Lifetime::Transient { cast } else { view };
+        &self.caster_targets[layer % self.caster_targets.len()]
     }
 
     /// All layers of the casters' depth.
@@ -118,15 +121,16 @@ impl Textures {
                 array_layer_count: Some(step.source_layers),
                 base_mip_level: mip,
                 mip_level_count: Some(1),
+                aspect: aspect(texture),
                 ..Default::default()
             })
         };
         match slot {
-            Slot::Casters => one(&self.casters, view.min(self.casters.depth_or_array_layers() - 1), 0),
-            // All share one layer, unless the caller's depth has one for each.
-            Slot::Cast(cast, casts) => {
-                let last = self.casters.depth_or_array_layers() - 1;
-                one(&self.casters, (view * casts + cast).min(last), 0)
+            // Views share one layer unless receivers compare it or it is the caller's.
+            Slot::Casters => array(&self.casters, view.min(self.casters.depth_or_array_layers() - 1)),
+            Slot::Casts { first, of, .. } => {
+                let own = self.casters_lifetime == Lifetime::Borrowed;
+                array(&self.casters, if own { view * of + first } else { 0 })
             }
             Slot::Map(i) => array(&self.maps[i].texture, view * self.maps[i].layers + layer),
             Slot::Scratch(i) => array(self.maps[i].scratch(), layer),
@@ -136,7 +140,7 @@ impl Textures {
     /// What a step writes, for one view.
     pub(super) fn targets(&self, step: &Step, view: u32) -> Vec<TextureView> {
         let target = |place: &Place| match place.slot {
-            Slot::Casters | Slot::Cast(..) => self.caster_targets[view as usize].clone(),
+            Slot::Casters | Slot::Casts { .. } => self.caster_target(view as usize, 0).clone(),
             Slot::Map(i) => one(&self.maps[i].texture, view * self.maps[i].layers + place.layer, place.mip),
             Slot::Scratch(i) => one(self.maps[i].scratch(), place.layer, 0),
         };
@@ -201,15 +205,14 @@ fn aspect(texture: &wgpu::Texture) -> TextureAspect {
     if texture.format().has_depth_aspect() { TextureAspect::DepthOnly } else { TextureAspect::All }
 }
 
-/// A colour attachment of which every texel is written. Its old content stays only in channels that
-/// are not, if `kept`.
-pub(super) fn written(view: &TextureView, kept: bool) -> wgpu::RenderPassColorAttachment<'_> {
+/// A colour attachment of which every texel is written.
+pub(super) fn written(view: &TextureView) -> wgpu::RenderPassColorAttachment<'_> {
     wgpu::RenderPassColorAttachment {
         view,
         depth_slice: None,
         resolve_target: None,
         ops: wgpu::Operations {
-            load: if kept { wgpu::LoadOp::Load } else { wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT) },
+            load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
             store: wgpu::StoreOp::Store,
         },
     }

@@ -8,7 +8,7 @@ use crate::{
     technique::{Combine, Encode, Map, Technique},
 };
 
-/// WGSL that gives encoded texels: `convert_source(p)` and `convert_layer(source, layer)`.
+/// WGSL that gives encoded texels: `convert_source(p, cast)` and `convert_layer(source, layer)`.
 #[derive(Debug)]
 pub(super) struct Source {
     wgsl: String,
@@ -46,8 +46,22 @@ impl Source {
         let stores: String = layers(run)
             .map(|(i, layer)| format!("    targets.layer_{i} = convert_layer(source, {layer}u);\n"))
             .collect();
-        let body = format!("    let source = convert_source(position.xy);\n{stores}");
+        let body = format!("    let source = convert_source(position.xy, 0u);\n{stores}");
         run.step("convert", self.fragment(run, &body), CASTERS, run.kept(0))
+    }
+
+    /// Encodes the depths of caster passes from `first` on, at most four, as the channels of a layer.
+    pub(super) fn channels(&self, first: u32, casts: u32, run: Run) -> Step {
+        let count = (casts - first).min(4);
+        let body: String = (0..count)
+            .map(|cast| {
+                let source = format!("convert_source(position.xy, {cast}u)");
+                format!("    targets.layer_0[{cast}] = convert_layer({source}, {}u)[{cast}];\n", run.first)
+            })
+            .collect();
+        let from = Place { slot: Slot::Casts { first, count, of: casts }, layer: 0, mip: 0 };
+        let step = run.step("convert", self.fragment(run, &body), from, run.kept(0));
+        Step { source_layers: count, ..step }
     }
 
     /// Encodes layers of a map and blurs them along x, into scratch.
@@ -59,7 +73,7 @@ impl Source {
                 format!("    sum_{i} = combine_add(sum_{i}, {weight}, convert_layer(source, {layer}u));\n")
             });
             format!(
-                "    {{\n    let source = convert_source(position.xy + vec2f({offset}, 0.0));\n{}    }}\n",
+                "    {{\n    let source = convert_source(position.xy + vec2f({offset}, 0.0), 0u);\n{}    }}\n",
                 sums.collect::<String>()
             )
         });

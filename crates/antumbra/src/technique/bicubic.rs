@@ -45,7 +45,7 @@ impl Technique for Bicubic {
         vec![self.precision.part()]
     }
     fn bias(&self) -> BiasTerms {
-        BiasTerms::COMPARISON
+        BiasTerms::FOURS
     }
     fn depth_step(&self) -> f32 {
         self.precision.step()

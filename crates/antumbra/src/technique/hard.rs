@@ -42,7 +42,7 @@ impl Technique for Hard {
         vec![self.precision.part()]
     }
     fn bias(&self) -> BiasTerms {
-        BiasTerms::COMPARISON
+        BiasTerms::TEXELS
     }
     fn depth_step(&self) -> f32 {
         self.precision.step()

@@ -120,7 +120,7 @@ impl Technique for Packed {
         vec![self.precision.part()]
     }
     fn bias(&self) -> BiasTerms {
-        BiasTerms::COMPARISON
+        BiasTerms::TEXELS
     }
     fn depth_step(&self) -> f32 {
         self.precision.step()

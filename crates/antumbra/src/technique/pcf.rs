@@ -147,7 +147,10 @@ impl Technique for Pcf {
         vec![taps, self.precision.part()]
     }
     fn bias(&self) -> BiasTerms {
-        BiasTerms::COMPARISON
+        match self.taps {
+            Taps::Nearest => BiasTerms::TEXELS,
+            Taps::Bilinear | Taps::Merged | Taps::Gather => BiasTerms::FOURS,
+        }
     }
     fn depth_step(&self) -> f32 {
         self.precision.step()

@@ -103,7 +103,7 @@ impl Technique for Poisson {
         vec![spin, self.precision.part()]
     }
     fn bias(&self) -> BiasTerms {
-        BiasTerms::COMPARISON
+        BiasTerms::FOURS
     }
     fn depth_step(&self) -> f32 {
         self.precision.step()
