@@ -59,6 +59,24 @@ pub fn enter(
     techniques: &[Box<dyn Technique>],
     map_size: u32,
 ) -> Result<(Vec<Contestant>, View)> {
+    let mut contestants = contestants(gpu, stage, techniques, map_size)?;
+    let maps: Vec<&ShadowMap> = contestants.iter().map(|c| &c.shadows).collect();
+    let view = view(stage, geometry, light, &maps)?;
+    aim(gpu, stage, &mut contestants, &view)?;
+    Ok((contestants, view))
+}
+
+/// A shadow map of `map_size` × `map_size` texels for every technique, sharing pipelines, without a
+/// view yet.
+///
+/// # Errors
+/// Settings that the device cannot do, naming the technique.
+pub fn contestants(
+    gpu: &Gpu,
+    stage: &Stage,
+    techniques: &[Box<dyn Technique>],
+    map_size: u32,
+) -> Result<Vec<Contestant>> {
     let pipelines = Pipelines::new(&gpu.device);
     let mut contestants = Vec::with_capacity(techniques.len());
     for technique in techniques {
@@ -72,11 +90,17 @@ pub fn enter(
         gpu.check().with_context(|| technique::spec(technique.as_ref()))?;
         contestants.push(Contestant { shadows, lookup, casters, classes });
     }
-    let maps: Vec<&ShadowMap> = contestants.iter().map(|c| &c.shadows).collect();
-    let view = view(stage, geometry, light, &maps)?;
+    Ok(contestants)
+}
+
+/// Gives all contestants a view, and the stage the views that they draw casters for.
+///
+/// # Errors
+/// Never for one view: every map has room for that.
+pub fn aim(gpu: &Gpu, stage: &mut Stage, contestants: &mut [Contestant], view: &View) -> Result<()> {
     let mut caster_views = Vec::new();
-    for contestant in &mut contestants {
-        contestant.shadows.prepare(&gpu.queue, &[view])?;
+    for contestant in contestants {
+        contestant.shadows.prepare(&gpu.queue, &[*view])?;
         for view in contestant.shadows.caster_views() {
             if !caster_views.contains(view) {
                 caster_views.push(*view);
@@ -84,5 +108,5 @@ pub fn enter(
         }
     }
     stage.set_views(gpu, &caster_views);
-    Ok((contestants, view))
+    Ok(())
 }
