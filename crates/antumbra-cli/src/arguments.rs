@@ -186,7 +186,7 @@ pub(crate) struct Flicker {
     pub(crate) frames: u32,
     /// Pixels from one that is asked for the light-space and screen-space ideals, which take many rays,
     /// to the next
-    #[arg(long, default_value_t = 4, value_name = "PIXELS")]
+    #[arg(long, default_value_t = 8, value_name = "PIXELS")]
     pub(crate) stride: u32,
     /// Rays per pixel of the screen-space ideal, along one side
     #[arg(long, default_value_t = 4)]

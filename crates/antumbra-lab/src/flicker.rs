@@ -34,7 +34,10 @@ use antumbra::{ShadowMap, Technique, technique};
 use antumbra_scene::{Camera, Geometry, Light};
 use antumbra_truth::Tracer;
 use anyhow::{Context, Result, bail};
-use std::{collections::BTreeMap, time::Instant};
+use std::{
+    collections::BTreeMap,
+    time::{Duration, Instant},
+};
 
 mod page;
 mod pictures;
@@ -112,6 +115,7 @@ pub fn measure(gpu: &Gpu, request: &Request, progress: &dyn Progress) -> Result<
     let mut pictures: Option<Pictures> = None;
     let mut before: Option<(Frame, Moment)> = None;
     let mut texels: Vec<f32> = Vec::new();
+    let mut tracing = Duration::ZERO;
     progress.step(&format!("{} frames", frames.len()));
     for (number, frame) in frames.iter().enumerate() {
         let at = || format!("frame {number} of the path");
@@ -132,7 +136,10 @@ pub fn measure(gpu: &Gpu, request: &Request, progress: &dyn Progress) -> Result<
         stage.encode_surfaces(&mut encoder, None);
         gpu.finish(encoder)?;
         let seen = answers(gpu, &stage, &lighting, &contestants)?;
-        let right = truths.right(frame, &view, &stage.surfaces().read_positions(gpu)?).with_context(at)?;
+        let drawn = stage.surfaces().read_positions(gpu)?;
+        let clock = Instant::now();
+        let right = truths.right(frame, &view, &drawn).with_context(at)?;
+        tracing += clock.elapsed();
         let now = Moment { right, answers: seen };
         let pictures =
             pictures.get_or_insert_with(|| Pictures::new(request, &now, truths.size(), &contestants));
@@ -141,7 +148,12 @@ pub fn measure(gpu: &Gpu, request: &Request, progress: &dyn Progress) -> Result<
             let points: Right = match on_points {
                 None => now.right.clone(),
                 Some(_) if last.light == frame.light => was.right.clone(),
-                Some(_) => truths.right_at(&was.right, frame, &view),
+                Some(_) => {
+                    let clock = Instant::now();
+                    let right = truths.right_at(&was.right, frame, &view);
+                    tracing += clock.elapsed();
+                    right
+                }
             };
             let answers = on_points.as_ref().unwrap_or(&now.answers);
             series.add(&truths, was, &now, &points, answers);
@@ -152,7 +164,7 @@ pub fn measure(gpu: &Gpu, request: &Request, progress: &dyn Progress) -> Result<
     progress.step("pictures");
     let Some(pictures) = pictures else { bail!("no frame was drawn") };
     let mut images = BTreeMap::new();
-    let (techniques, files) = series.results(request, &contestants, &mut images)?;
+    let (techniques, heat_maps) = series.results(request, &contestants, &mut images)?;
     pictures.files(&mut images)?;
     let results = Results {
         schema: SCHEMA.into(),
@@ -173,7 +185,8 @@ pub fn measure(gpu: &Gpu, request: &Request, progress: &dyn Progress) -> Result<
         ideal_against_hard: series.ideal_against_hard(),
         texel_changes: texels.windows(2).filter(|pair| pair[0] != pair[1]).count() as u32,
         techniques,
-        heat_maps: files,
+        heat_maps,
+        seconds_tracing: tracing.as_secs_f64(),
         seconds_total: start.elapsed().as_secs_f64(),
         files: Vec::new(),
     };

@@ -74,6 +74,7 @@ fn html(outcome: &Outcome) -> String {
         ("program", escape(&format!("{} {}", results.program.name, results.program.version))),
         ("adapter", escape(&format!("{}, {}", results.adapter.name, results.adapter.driver))),
         ("seconds", text::seconds(results.seconds_total)),
+        ("tracing", text::seconds(results.seconds_tracing)),
         ("schema", escape(&results.schema)),
     ];
     text::fill(PAGE, &parts)

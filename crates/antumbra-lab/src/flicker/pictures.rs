@@ -25,6 +25,8 @@ const ZOOM: u32 = 2;
 /// Most frames of a film; of longer paths it leaves out some.
 const FILM: usize = 240;
 const FRAMES_PER_SECOND: u16 = 15;
+/// Gray of pixels that do not count.
+const UNCOUNTED: u8 = 120;
 const BAR: Colour = [32, 36, 42];
 
 /// Files that every page shows.
@@ -82,11 +84,13 @@ impl Pictures {
     }
 
     pub(super) fn add(&mut self, moment: &Moment) {
-        let truth: Vec<f32> = moment.right.hard.iter().map(|v| v.unwrap_or(1.0)).collect();
+        let truth: Vec<f32> = moment.right.hard.iter().map(|v| v.unwrap_or(0.0)).collect();
         for (panel, values) in self.panels.iter_mut().zip(std::iter::once(&truth).chain(&moment.answers)) {
+            let counted = moment.right.hard.iter().zip(values);
+            let bytes: Vec<u8> =
+                counted.map(|(truth, v)| truth.map_or(UNCOUNTED, |_| (v * 255.0).round() as u8)).collect();
             // The window lies inside: it was chosen so.
-            let values = crop(values, self.resolution, self.window).unwrap_or_default();
-            panel.frames.push(values.iter().map(|v| (v * 255.0).round() as u8).collect());
+            panel.frames.push(crop(&bytes, self.resolution, self.window).unwrap_or_default());
         }
     }
 

@@ -128,6 +128,8 @@ pub struct Results {
     pub techniques: Vec<TechniqueFlicker>,
     /// Names of their pictures of where it flickers, in the same order.
     pub heat_maps: Vec<String>,
+    /// Time spent on truths, seconds.
+    pub seconds_tracing: f64,
     /// Time of the whole run, seconds.
     pub seconds_total: f64,
     /// The files of the page.
