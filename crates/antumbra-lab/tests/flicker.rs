@@ -15,8 +15,11 @@ use antumbra_testing::{Trials, broken::Broken};
 fn main() {
     let mut trials = Trials::default();
     trials.add("sub_pixel_shadow_maps_flicker_less_than_half_as_much_as_hard_ones", |gpu| {
-        let request =
-            Request { resolution: [240, 180], frames: 9, ..request("spheres", Path::Both, &["hard", "spsm"]) };
+        let request = Request {
+            resolution: [240, 180],
+            frames: 9,
+            ..request("spheres", Path::Both, &["hard", "spsm"])
+        };
         let results = run(gpu, &request);
         let ratio = of(&results, "spsm").ratio_to_hard.unwrap();
         assert!(ratio < 0.5, "{ratio}");
