@@ -46,6 +46,7 @@ mod score;
 mod truths;
 
 pub use page::write;
+pub use pictures::{FILM_FILE, ROW_FILE, STRIP_FILE};
 pub use results::{Measured, Promise, Results, SCHEMA, TechniqueFlicker};
 pub use score::{Tally, change_of_error};
 

@@ -14,8 +14,9 @@ use std::collections::BTreeMap;
 
 /// Largest part that is shown, pixels.
 const WINDOW: [u32; 2] = [160, 120];
-/// Height of a name, pixels.
+/// Height of a name, pixels; in a strip, which is shown smaller.
 const NAME: u32 = 14;
+const LARGE_NAME: u32 = 26;
 /// Pixels between panels.
 const GAP: u32 = 4;
 /// Frames of a strip.
@@ -29,10 +30,12 @@ const FRAMES_PER_SECOND: u16 = 15;
 const UNCOUNTED: u8 = 120;
 const BAR: Colour = [32, 36, 42];
 
-/// Files that every page shows.
-pub(super) const FILM_FILE: &str = "film.png";
-pub(super) const STRIP_FILE: &str = "strip.png";
-pub(super) const ROW_FILE: &str = "row.png";
+/// The picture of all panels in motion.
+pub const FILM_FILE: &str = "film.png";
+/// That of a few frames of each panel.
+pub const STRIP_FILE: &str = "strip.png";
+/// That of one row of each panel over time.
+pub const ROW_FILE: &str = "row.png";
 
 /// One thing that is shown, frame by frame.
 #[derive(Debug)]
@@ -129,17 +132,18 @@ impl Pictures {
         picks.dedup();
         let rows = self.panels.len() as u32;
         let columns = picks.len() as u32;
-        let mut image = paint::blank(columns * (width + GAP) - GAP, rows * (NAME + height + GAP) + NAME, BAR);
+        let mut image =
+            paint::blank(columns * (width + GAP) - GAP, rows * (LARGE_NAME + height + GAP) + LARGE_NAME, BAR);
         for (column, pick) in picks.iter().enumerate() {
             let x = column as u32 * (width + GAP);
-            name(&mut image, &format!("frame {pick}"), x, 0);
+            name(&mut image, Letters::Large, &format!("frame {pick}"), x, 0);
             for (row, panel) in self.panels.iter().enumerate() {
-                let y = NAME + row as u32 * (NAME + height + GAP);
+                let y = LARGE_NAME + row as u32 * (LARGE_NAME + height + GAP);
                 if column == 0 {
-                    name(&mut image, &panel.name, 0, y);
+                    name(&mut image, Letters::Large, &panel.name, 0, y);
                 }
                 let [.., width, _] = self.window;
-                paint::put(&mut image, &gray(&panel.frames[*pick], width, ZOOM), x, y + NAME);
+                paint::put(&mut image, &gray(&panel.frames[*pick], width, ZOOM), x, y + LARGE_NAME);
             }
         }
         image
@@ -169,15 +173,16 @@ impl Pictures {
         let place = |i: u32| [(i % columns) * (width + GAP), (i / columns) * (NAME + height + GAP)];
         let places: Vec<[u32; 2]> = (0..count).map(place).collect();
         for (panel, [x, y]) in self.panels.iter().zip(&places) {
-            name(&mut sheet, &panel.name, *x, *y);
+            name(&mut sheet, Letters::Small, &panel.name, *x, *y);
         }
         (sheet, places.into_iter().map(|[x, y]| [x, y + NAME]).collect())
     }
 }
 
-fn name(image: &mut Rgba8Image, text: &str, x: u32, y: u32) {
-    let at = [x as i32 + 4, y as i32 + NAME as i32 / 2];
-    paint::text(image, at, Anchor::Start, text, Letters::Small, WHITE);
+fn name(image: &mut Rgba8Image, letters: Letters, text: &str, x: u32, y: u32) {
+    let height = if letters == Letters::Large { LARGE_NAME } else { NAME };
+    let at = [x as i32 + 4, y as i32 + height as i32 / 2];
+    paint::text(image, at, Anchor::Start, text, letters, WHITE);
 }
 
 /// Gray values `width` pixels wide as a picture, each pixel repeated `zoom` times both ways.
