@@ -50,8 +50,6 @@ pub(super) struct Pictures {
     resolution: [u32; 2],
     /// Left, top, width, height.
     window: [u32; 4],
-    /// The row of the window that is shown over time.
-    row: u32,
     panels: Vec<Panel>,
 }
 
@@ -71,17 +69,11 @@ impl Pictures {
             Path::Recede => centre,
             _ => busiest(&edges, resolution, [width, height]),
         };
-        let across = |y: u32| {
-            let start = ((top + y) * resolution[0] + left) as usize;
-            edges[start..start + width as usize].iter().filter(|edge| **edge).count()
-        };
-        let row = (0..height).max_by_key(|y| across(*y)).unwrap_or(0);
         let specs = contestants.iter().map(|c| technique::spec(c.shadows.technique()));
         let panels = std::iter::once("truth".to_string()).chain(specs);
         Self {
             resolution,
             window: [left, top, width, height],
-            row,
             panels: panels.map(|name| Panel { name, frames: Vec::new() }).collect(),
         }
     }
@@ -154,13 +146,26 @@ impl Pictures {
     fn row_over_time(&self) -> Rgba8Image {
         let [.., width, _] = self.window;
         let (mut sheet, places) = self.sheet(ZOOM * width, ZOOM * self.count() as u32);
-        let from = (self.row * width) as usize;
+        let from = self.liveliest_row() * width as usize;
         for (panel, [x, y]) in self.panels.iter().zip(&places) {
             let rows: Vec<u8> =
                 panel.frames.iter().flat_map(|frame| &frame[from..from + width as usize]).copied().collect();
             paint::put(&mut sheet, &gray(&rows, width, ZOOM), *x, *y);
         }
         sheet
+    }
+
+    /// The row in which the truth changes most often.
+    fn liveliest_row(&self) -> usize {
+        let width = self.window[2] as usize;
+        let mut changes = vec![0; self.window[3] as usize];
+        for pair in self.panels.first().map(|truth| truth.frames.windows(2)).into_iter().flatten() {
+            let rows = pair[0].chunks_exact(width).zip(pair[1].chunks_exact(width));
+            for (count, (a, b)) in changes.iter_mut().zip(rows) {
+                *count += a.iter().zip(b).filter(|(a, b)| a != b).count();
+            }
+        }
+        (0..changes.len()).max_by_key(|y| changes[*y]).unwrap_or(0)
     }
 
     /// An empty sheet with the names on it, and where the panels go.
