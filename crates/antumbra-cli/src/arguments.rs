@@ -21,6 +21,9 @@ pub(crate) enum Command {
     /// Render one picture with one technique
     #[command(after_help = RENDER_EXAMPLES)]
     Render(Render),
+    /// Move camera or light, and measure how much shadows change that should not
+    #[command(after_help = FLICKER_EXAMPLES)]
+    Flicker(Flicker),
     /// Time techniques and the ray tracer, without scoring
     Bench(Bench),
     /// Measure what biases cost and give: acne, detached shadows, error
@@ -68,6 +71,12 @@ const BIAS_EXAMPLES: &str = "Examples:
 
 Settings: auto, none, or terms joined by commas, each in the unit of its name: constant_texels,
 slope_texels, normal_offset_texels, receiver_plane (0 to 1), depth_steps.";
+const FLICKER_EXAMPLES: &str = "Examples:
+  antumbra flicker fence -o flicker
+  antumbra flicker spheres --path light --frames 60 --techniques hard spsm
+  antumbra flicker fence --path recede --techniques hard pcf csm --resolution 640x480
+
+Every frame is traced as well, and only what differs from the truth's own change counts.";
 
 const CURVE_EXAMPLES: &str = "Examples:
   antumbra curve csm esm esm.c=20 evsm --range -0.05,0.15 -o step.svg
@@ -170,6 +179,49 @@ pub(crate) enum Show {
     Visibility,
     /// Visibility with the kinds of pixels that the technique tells apart in colour
     Classes,
+}
+
+#[derive(Debug, Args)]
+#[command(mut_arg("resolution", |arg| arg.default_value("480x360")), mut_arg("size", |arg| arg.default_value("1024")))]
+pub(crate) struct Flicker {
+    #[command(flatten)]
+    pub(crate) scene: SceneArguments,
+    /// Techniques with settings, or all, all-comparison, all-basis, all-geometry; ratios need hard
+    #[arg(long, num_args = 1.., default_values_t = ["hard", "pcf", "vsm", "esm", "csm", "spsm"].map(String::from),
+        value_name = "TECHNIQUE")]
+    pub(crate) techniques: Vec<String>,
+    /// What moves
+    #[arg(long, value_enum, default_value_t = Motion::Both)]
+    pub(crate) path: Motion,
+    /// Frames of the path, 2 or more
+    #[arg(long, default_value_t = 120)]
+    pub(crate) frames: u32,
+    /// Pixels from one that is asked for the light-space and screen-space ideals, which take many rays,
+    /// to the next
+    #[arg(long, default_value_t = 8, value_name = "PIXELS")]
+    pub(crate) stride: u32,
+    /// Rays per pixel of the screen-space ideal, along one side
+    #[arg(long, default_value_t = 4)]
+    pub(crate) grid: u32,
+    /// Folder of the page; an earlier one there is replaced
+    #[arg(short, long, default_value = "flicker", value_name = "FOLDER")]
+    pub(crate) output: PathBuf,
+    /// Print the results as JSON instead of a table
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// What moves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Motion {
+    /// The camera turns 8° about its target and comes a tenth nearer
+    Camera,
+    /// The light turns 5°
+    Light,
+    /// Both
+    Both,
+    /// The camera moves away to eight times its distance
+    Recede,
 }
 
 #[derive(Debug, Args)]

@@ -14,6 +14,7 @@ mod bias;
 mod compare;
 mod curve;
 mod export;
+mod flicker;
 mod info;
 mod maps;
 mod render;
@@ -25,6 +26,7 @@ pub(crate) fn run(arguments: Arguments) -> Result<()> {
     match arguments.command {
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Render(arguments) => render::run(&arguments),
+        Command::Flicker(arguments) => flicker::run(&arguments),
         Command::Bench(arguments) => bench::run(&arguments),
         Command::Bias(arguments) => bias::run(&arguments),
         Command::Curve(arguments) => curve::run(&arguments),
@@ -42,6 +44,12 @@ pub(crate) fn run(arguments: Arguments) -> Result<()> {
             Ok(std::io::stdout().write_all(&script)?)
         }
     }
+}
+
+/// The command line as typed, but for what is no Unicode.
+fn command_given() -> Vec<String> {
+    let arguments = std::env::args_os().skip(1).map(|argument| argument.to_string_lossy().into_owned());
+    std::iter::once("antumbra".to_string()).chain(arguments).collect()
 }
 
 /// What was probably meant, for an error about a name.

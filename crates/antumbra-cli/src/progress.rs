@@ -13,7 +13,7 @@ pub(crate) struct Bar(ProgressBar);
 
 impl Bar {
     pub(crate) fn new() -> Self {
-        Self::of("{spinner} {msg:34} {bar:32} {elapsed}")
+        Self::of("{spinner} {msg:34} {bar:32} {elapsed}, {eta} left")
     }
 
     /// One that also says how far something larger is.

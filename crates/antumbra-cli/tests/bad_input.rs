@@ -144,6 +144,21 @@ fn settings(trials: &mut Trials) {
         folder.run(&["bench", "contact", "--rounds=0"]).refusal(&["--rounds 0", "at least 1"]);
         assert_eq!(folder.names().len(), 0);
     });
+    trials.add_plain("motion", || {
+        let folder = Folder::new();
+        let cases: [(&str, &[&str]); 6] = [
+            ("--frames=0", &["--frames 0", "0 frames", "2 to 10000"]),
+            ("--frames=1", &["--frames 1", "no motion", "2 to 10000"]),
+            ("--frames=99999", &["--frames 99999", "2 to 10000"]),
+            ("--stride=0", &["--stride 0", "1 to 360"]),
+            ("--grid=17", &["--grid 17", "1 to 16"]),
+            ("--path=round", &["'round'", "recede"]),
+        ];
+        for (option, words) in cases {
+            folder.run(&["flicker", "contact", option]).refusal(words);
+        }
+        assert_eq!(folder.names().len(), 0);
+    });
     trials.add("size_beyond_the_device", |gpu| {
         let most = gpu.device.limits().max_texture_dimension_2d.to_string();
         refused(&["contact", "--size", "999999"], &["999999", &format!("1 to {most}")]);

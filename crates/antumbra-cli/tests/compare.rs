@@ -36,6 +36,7 @@ fn main() {
         let named = BOUNDS.iter().all(|(name, _)| info["choices"][name].is_array());
         assert!(named, "{info}");
     });
+    trials.add("flicker_and_its_page", |_| flicker());
     trials.add_plain("lists_and_completions", lists);
     trials.add_plain("scenes_are_exported", export);
     trials.run();
@@ -43,6 +44,21 @@ fn main() {
 
 fn json(arguments: &[&str]) -> Value {
     serde_json::from_str(&Folder::new().run(arguments).good()).unwrap()
+}
+
+fn flicker() {
+    let folder = Folder::new();
+    let small = ["flicker", "contact", "--frames", "3", "--resolution", "48x36", "--size", "64"];
+    let both = [&small[..], &["--techniques", "hard", "pcf", "--json", "-o", "page"]].concat();
+    for _ in 0..2 {
+        let results: Value = serde_json::from_str(&folder.run(&both).good()).unwrap();
+        assert_eq!(results["schema"], "antumbra-flicker/1");
+        assert_eq!(results["techniques"][1]["flicker"]["light_space"]["frames"].as_array().unwrap().len(), 2);
+        assert_eq!(results["techniques"][0]["ratio_to_hard"], 1.0);
+    }
+    assert_eq!(png_size(&folder.0.join("page/strip.png"))[0], 3 * 2 * 48 + 2 * 4);
+    let text = folder.run(&[&small[..], &["--path", "recede", "--techniques", "pcf", "-o", "page"]].concat());
+    assert!(text.good().contains("moves away"));
 }
 
 fn lists() {

@@ -12,9 +12,10 @@ use crate::{
     timing::{self, Entrant},
 };
 use antumbra::{Bounds, Cascades, ShadowMap, Technique, View, technique};
-use antumbra_scene::{Camera, Geometry, Light};
+use antumbra_scene::{Aabb, Camera, Geometry, Light};
 use antumbra_truth::MapPlane;
 use anyhow::{Context, Result, bail};
+use glam::Mat4;
 use std::{
     collections::{BTreeMap, BTreeSet},
     time::Instant,
@@ -24,7 +25,7 @@ mod contestant;
 mod facts;
 mod truths;
 
-pub use contestant::{Contestant, enter, enter_biased};
+pub use contestant::{Contestant, aim, contestants, enter, enter_biased};
 pub use facts::{adapter_facts, memory, work};
 use truths::{Truth, Truths};
 
@@ -143,11 +144,18 @@ pub fn techniques(specs: &[String], kernel: u32) -> Result<Vec<Box<dyn Technique
 /// [`antumbra::LightError`], empty scene.
 pub fn view(stage: &Stage, geometry: &Geometry, light: &Light, shadows: &[&ShadowMap]) -> Result<View> {
     let bounds = geometry.bounds().context("the scene has no triangles")?;
-    let size = shadows.first().context("no shadow map")?.size();
+    view_from(stage.camera_matrix(), bounds, light, shadows)
+}
+
+/// The same for any camera's matrix, with the scene's box at hand.
+///
+/// # Errors
+/// [`antumbra::LightError`].
+pub fn view_from(camera: Mat4, scene: Aabb, light: &Light, shadows: &[&ShadowMap]) -> Result<View> {
     let library_stage = antumbra::Stage {
-        camera: stage.camera_matrix(),
-        scene: Bounds { min: bounds.min, max: bounds.max },
-        size,
+        camera,
+        scene: Bounds { min: scene.min, max: scene.max },
+        size: shadows.first().context("no shadow map")?.size(),
         margin_texels: shadows.iter().map(|s| s.margin_texels()).fold(1.0, f32::max),
     };
     let views =

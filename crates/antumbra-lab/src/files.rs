@@ -127,7 +127,11 @@ fn put_in_place(partial: &Path, out: &Path) -> Result<(), FileError> {
 }
 
 /// Files that say what else is in a folder of ours, and how their schema begins.
-const INDEXES: [(&str, &str); 2] = [("results.json", "antumbra-results/"), ("maps.json", "antumbra-maps/")];
+const INDEXES: [(&str, &str); 3] = [
+    ("results.json", "antumbra-results/"),
+    ("maps.json", "antumbra-maps/"),
+    ("flicker.json", "antumbra-flicker/"),
+];
 
 /// What such a file lists, if it is one.
 fn listed(folder: &Path, (name, schema): &(&str, &str)) -> Option<Vec<String>> {

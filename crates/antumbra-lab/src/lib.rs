@@ -4,9 +4,11 @@
 //! [`compare::compare`] does it all: [`stage`] draws what casters leave and what the camera sees,
 //! [`lighting`] turns that into visibility and pictures, `antumbra-truth` says what is right,
 //! [`metrics`] how far off a technique is, [`timing`] what it costs; [`results`] is the outcome as
-//! data and [`report`] as a page. [`curve`] and [`maps`] look at a technique alone, [`bias`]
-//! at what keeps it from shadowing itself; [`chart`] draws curves.
+//! data and [`report`] as a page. [`motion`] moves camera and light, [`flicker`] measures what then
+//! changes by itself. [`curve`] and [`maps`] look at a technique alone, [`bias`] at what keeps it from
+//! shadowing itself; [`chart`] draws curves.
 
+pub mod animation;
 mod axis;
 pub mod bias;
 pub mod chart;
@@ -14,10 +16,12 @@ pub mod classes;
 pub mod compare;
 pub mod curve;
 pub mod files;
+pub mod flicker;
 pub mod gpu;
 pub mod lighting;
 pub mod maps;
 pub mod metrics;
+pub mod motion;
 mod paint;
 pub mod plane;
 pub mod regions;

@@ -18,7 +18,7 @@ mod column;
 mod plot;
 mod sections;
 mod table;
-mod text;
+pub(crate) mod text;
 mod viewer;
 
 pub use text::{bytes, count, escape, milliseconds, percent, significant};

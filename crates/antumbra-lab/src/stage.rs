@@ -6,7 +6,7 @@
 //! neighbouring pixels see different things.
 
 use crate::gpu::Gpu;
-use antumbra_scene::{AlphaMode, Camera, Geometry};
+use antumbra_scene::{AlphaMode, Camera, Geometry, Light};
 use anyhow::{Context, Result, bail};
 use bytemuck::{Pod, Zeroable};
 use glam::{Mat4, Vec3, camera::rh};
@@ -50,7 +50,7 @@ pub(crate) struct Frame {
 }
 
 impl Frame {
-    fn new(camera: &Camera, [width, height]: [u32; 2], near: f32) -> (Self, Mat4) {
+    fn new(camera: &Camera, light: &Light, [width, height]: [u32; 2], near: f32) -> (Self, Mat4) {
         let aspect = width as f32 / height as f32;
         let forward = (camera.target - camera.position).normalize();
         let right = forward.cross(camera.up).normalize();
@@ -60,7 +60,7 @@ impl Frame {
         let lens = rh::proj::directx::perspective_infinite_reverse(camera.fov_y, aspect, near);
         let turn = rh::view::look_to_mat4(Vec3::ZERO, forward, up);
         let matrix = lens * turn;
-        let frame = Self {
+        let mut frame = Self {
             clip_from_relative: matrix.to_cols_array_2d(),
             eye: camera.position.extend(1.0).to_array(),
             ray: (forward - right * (tangent * aspect) + up * tangent).extend(0.0).to_array(),
@@ -69,6 +69,14 @@ impl Frame {
             to_light: [0.0; 4],
             cone: [-2.0; 4],
         };
+        match *light {
+            Light::Directional { direction } => frame.to_light = (-direction).extend(0.0).to_array(),
+            Light::Spot { position, direction, outer_angle } => {
+                frame.to_light = position.extend(1.0).to_array();
+                let [x, y, z] = direction.normalize().to_array();
+                frame.cone = [outer_angle.cos(), x, y, z];
+            }
+        }
         (frame, matrix * Mat4::from_translation(-camera.position))
     }
 }
@@ -84,6 +92,9 @@ pub struct Stage {
     materials: Materials,
     pipelines: Pipelines,
     camera_matrix: Mat4,
+    /// Distance of the camera's near plane.
+    near: f32,
+    frame_buffer: wgpu::Buffer,
     frame_group: wgpu::BindGroup,
     light_buffer: wgpu::Buffer,
     light_group: wgpu::BindGroup,
@@ -102,7 +113,7 @@ impl Stage {
         gpu: &Gpu,
         geometry: &Geometry,
         camera: &Camera,
-        light: &antumbra_scene::Light,
+        light: &Light,
         resolution: [u32; 2],
     ) -> Result<Self> {
         let limits = gpu.device.limits();
@@ -121,16 +132,8 @@ impl Stage {
             .collect();
         check_buffer(gpu, "vertices", attributes.len(), size_of::<Attributes>())?;
         check_buffer(gpu, "corners of triangles", geometry.indices.len(), size_of::<u32>())?;
-        let (mut frame, camera_matrix) = Frame::new(camera, resolution, bounds.radius().max(1e-30) * 1e-4);
-        (frame.to_light, frame.cone[0]) = match *light {
-            antumbra_scene::Light::Directional { direction } => ((-direction).extend(0.0).to_array(), -2.0),
-            antumbra_scene::Light::Spot { position, outer_angle, .. } => {
-                (position.extend(1.0).to_array(), outer_angle.cos())
-            }
-        };
-        if let antumbra_scene::Light::Spot { direction, .. } = *light {
-            frame.cone[1..].copy_from_slice(&direction.normalize().to_array());
-        }
+        let near = bounds.radius().max(1e-30) * 1e-4;
+        let (frame, camera_matrix) = Frame::new(camera, light, resolution, near);
         let materials = Materials::new(gpu, geometry)?;
         let pipelines = Pipelines::new(gpu, &materials.layout);
         use wgpu::BufferUsages as Usage;
@@ -162,6 +165,8 @@ impl Stage {
             materials,
             pipelines,
             camera_matrix,
+            near,
+            frame_buffer,
             light_buffer,
             light_stride,
             views: Vec::new(),
@@ -174,6 +179,19 @@ impl Stage {
     #[must_use]
     pub fn camera_matrix(&self) -> Mat4 {
         self.camera_matrix
+    }
+
+    /// The camera matrix that [`look`](Self::look) would lead to.
+    #[must_use]
+    pub fn camera_matrix_of(&self, camera: &Camera, light: &Light) -> Mat4 {
+        Frame::new(camera, light, self.surfaces.resolution(), self.near).1
+    }
+
+    /// Moves camera and light. What [`surfaces`](Self::surfaces) holds is then to be drawn anew.
+    pub fn look(&mut self, gpu: &Gpu, camera: &Camera, light: &Light) {
+        let (frame, matrix) = Frame::new(camera, light, self.surfaces.resolution(), self.near);
+        gpu.queue.write_buffer(&self.frame_buffer, 0, bytemuck::bytes_of(&frame));
+        self.camera_matrix = matrix;
     }
 
     /// What the camera sees.

@@ -4,17 +4,18 @@
 use crate::{
     cache::{Cache, fingerprint, packed},
     raster::Raster,
-    study::{Look, Shot, Study, StudyFile, Traced, TracedFile, Truth, ViewFacts},
+    study::{File, Look, Moving, Shot, Study, StudyFile, Traced, TracedFile, Truth, ViewFacts},
 };
 use antumbra::{Kernel, ShadowMap, Technique, Weights, technique};
 use antumbra_lab::{
     classes,
     compare::{self, Contestant, Progress},
-    curve,
+    curve, flicker,
     gpu::Gpu,
     lighting::{Lighting, Lookup},
     maps::{self, Sheet},
     metrics::{self, Score},
+    motion::Path,
     plane::Plane,
     regions,
     results::{AdapterFacts, TimeResult},
@@ -26,7 +27,7 @@ use antumbra_truth::{CameraRays, MapPlane, Tracer};
 use anyhow::{Context, Result, bail};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
-use std::{cell::RefCell, collections::BTreeMap, path::Path, rc::Rc};
+use std::{cell::RefCell, collections::BTreeMap, rc::Rc};
 
 /// Shared services of all experiments.
 pub struct Bench<'a> {
@@ -72,7 +73,7 @@ impl<'a> Bench<'a> {
     ///
     /// # Errors
     /// No adapter; an executable that cannot be read.
-    pub fn new(cache: &Path, quick: bool, progress: &'a dyn Progress) -> Result<Self> {
+    pub fn new(cache: &std::path::Path, quick: bool, progress: &'a dyn Progress) -> Result<Self> {
         let gpu = Gpu::new()?;
         let adapter = compare::adapter_facts(&gpu);
         let program = std::env::current_exe().context("the path of this program")?;
@@ -316,6 +317,38 @@ impl<'a> Bench<'a> {
                 runners.iter().map(|r| r.as_ref().map_or(none, Contestant::entrant)).collect();
             self.progress.step(&format!("time {} entrants on {}", entrants.len(), shot.scene));
             timing::race(gpu, &stage, &lighting, &runners, rounds, &|share| self.progress.share(share))
+        })
+    }
+
+    /// Moves camera and light of a scene along `path`, traces every frame, and says how `specs` flicker;
+    /// few frames in a quick run.
+    ///
+    /// # Errors
+    /// As [`study`](Self::study).
+    pub fn moving(&self, shot: Shot, path: Path, frames: u32, map: u32, specs: &[&str]) -> Result<Moving> {
+        let frames = if self.quick { 4 } else { frames };
+        self.cache.memo(&("moving", shot, path.name(), frames, map, specs), || {
+            let scene = self.scene(shot.scene)?;
+            let request = flicker::Request {
+                scene: shot.scene.into(),
+                geometry: scene.geometry.clone(),
+                camera: camera(&shot, &scene),
+                light: scene.light,
+                path,
+                frames,
+                techniques: parse(specs)?,
+                map_size: map,
+                kernel: 5,
+                resolution: shot.resolution,
+                stride: 8,
+                grid: 4,
+                command: Vec::new(),
+            };
+            let flicker::Outcome { results, images } = flicker::measure(&self.gpu, &request, self.progress)?;
+            Ok(Moving {
+                results,
+                images: images.into_iter().map(|(name, file)| (name, File(file))).collect(),
+            })
         })
     }
 

@@ -1,13 +1,16 @@
 //! What is asked and what is answered: shots, studies of them, truths.
 
-use crate::{cache::packed, raster::Raster};
+use crate::{cache::packed, page::Tile, raster::Raster};
+use antumbra::technique;
 use antumbra_lab::{
     classes::ClassShare,
+    flicker::{self, TechniqueFlicker},
     plane::Plane,
     results::{MemoryResult, Work},
 };
 use anyhow::{Context, Result};
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 /// A scene seen by its own camera in its own light.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -92,6 +95,43 @@ pub struct Traced {
     /// The scene shaded with it.
     pub picture: Raster,
     pub(crate) key: String,
+}
+
+/// A scene in motion.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct Moving {
+    /// How every technique flickers.
+    pub results: flicker::Results,
+    pub(crate) images: BTreeMap<String, File>,
+}
+
+/// The bytes of a file.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(crate) struct File(#[serde(with = "packed")] pub(crate) Vec<u8>);
+
+impl Moving {
+    /// What a technique flickers, by the spec it was asked for.
+    ///
+    /// # Errors
+    /// A spec that was not asked for.
+    pub fn technique(&self, spec: &str) -> Result<&TechniqueFlicker> {
+        let full = technique::spec(technique::parse(spec)?.as_ref());
+        let found = self.results.techniques.iter().find(|technique| technique.spec == full);
+        found.with_context(|| format!("{spec} was not moved"))
+    }
+
+    /// One of the pictures that [`flicker::measure`] drew.
+    ///
+    /// # Errors
+    /// A name that it does not use; no PNG.
+    pub fn tile(&self, name: &str, caption: impl Into<String>) -> Result<Tile> {
+        let File(png) = self.images.get(name).with_context(|| format!("no picture is called {name}"))?;
+        let number =
+            |at: usize| png.get(at..at + 4).and_then(|b| Some(u32::from_be_bytes(b.try_into().ok()?)));
+        // Where every PNG says its size.
+        let size = number(16).zip(number(20)).with_context(|| format!("{name} is no PNG"))?;
+        Ok(Tile { caption: caption.into(), png: png.clone(), size: size.into(), close_up: true })
+    }
 }
 
 /// What the cache keeps of a truth.

@@ -8,6 +8,8 @@
 //! - [`Tracer::hard`]: the truth of one shadow ray per pixel centre.
 //! - [`Tracer::supersampled`]: the screen-space ideal, the truth for anti-aliasing.
 //! - [`Tracer::light_space_ideal`]: the filtered truth, for maps that are blurred.
+//! - [`Tracer::hard_at`], [`Tracer::supersampled_at`], [`Tracer::light_space_ideal_at`]: the same for
+//!   chosen points or pixels, for moving pictures.
 //! - [`Tracer::coverage`]: whether the rasteriser sees the same triangles, and if not, why.
 //!
 //! # Where a shadow ray starts

@@ -139,6 +139,15 @@ impl Tracer<'_> {
         Visibility::collect(rays, &pixels)
     }
 
+    /// The hard truth at points of one's own choice: hits of this tracer, under any light. Values are 0
+    /// or 1, `None` where a hit is not shadowable.
+    ///
+    /// Cost: one ray per point.
+    #[must_use]
+    pub fn hard_at(&self, hits: &[Hit], light: &Light) -> Vec<Option<f32>> {
+        hits.par_iter().with_min_len(256).map(|hit| self.visibility(light, hit)).collect()
+    }
+
     /// The screen-space ideal: the hard truth of `grid` × `grid` points per pixel, on a regular grid
     /// ((i + ½)/grid), averaged over the shadowable ones. A pixel is shadowable when one of its
     /// points is. `grid` 0 counts as 1.
@@ -165,6 +174,24 @@ impl Tracer<'_> {
             rows.step();
         });
         Visibility::collect(rays, &pixels)
+    }
+
+    /// The same for some pixels only, by number.
+    ///
+    /// Cost: 2 `grid`² rays per pixel.
+    #[must_use]
+    pub fn supersampled_at(
+        &self,
+        rays: &CameraRays,
+        pixels: &[usize],
+        light: &Light,
+        grid: u32,
+    ) -> Vec<Option<f32>> {
+        let mean = |&pixel: &usize| {
+            let (x, y) = rays.pixel(pixel);
+            self.pixel_mean(rays, light, grid.max(1), [f64::from(x), f64::from(y)])
+        };
+        pixels.par_iter().with_min_len(16).map(mean).collect()
     }
 
     fn pixel_mean(&self, rays: &CameraRays, light: &Light, grid: u32, corner: [f64; 2]) -> Option<f32> {

@@ -1,11 +1,13 @@
 //! From a picture to the triangles that it shows.
 
+use crate::body::Bodies;
 use crate::tree::{Span, Tree};
 use crate::triangle::Meeting;
 use crate::{CameraRays, Ray, TruthError};
 use antumbra_scene::{AlphaMode, Geometry};
 use glam::DVec3;
 use rayon::prelude::*;
+use std::sync::OnceLock;
 
 /// What a primary ray sees.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,6 +50,8 @@ pub struct Tracer<'g> {
     pub(crate) clearance_ulps: f64,
     /// Triangles from here on may have cut-out points.
     first_masked: u32,
+    /// Found when first asked for.
+    bodies: OnceLock<Bodies>,
 }
 
 impl std::fmt::Debug for Tracer<'_> {
@@ -86,6 +90,7 @@ impl<'g> Tracer<'g> {
             tree: Tree::new(geometry)?,
             clearance_ulps: Self::CLEARANCE_ULPS,
             first_masked: first_masked.unwrap_or(u32::MAX),
+            bodies: OnceLock::new(),
         })
     }
 
@@ -124,6 +129,11 @@ impl<'g> Tracer<'g> {
             .with_min_len(256)
             .map(|index| self.trace(&rays.center_ray(index)))
             .collect()
+    }
+
+    /// Which triangles hang together.
+    pub(crate) fn bodies(&self) -> &Bodies {
+        self.bodies.get_or_init(|| Bodies::new(self.geometry))
     }
 
     /// Whether the point of the triangle is cut out, so that rays pass.

@@ -194,3 +194,32 @@ fn repeats_exactly_and_reports_progress() {
     };
     assert!(run(1) == run(3));
 }
+
+#[test]
+fn chosen_points_get_what_their_pixels_get() {
+    let ground = grid(DVec3::new(-4.0, 0.0, -4.0), DVec3::X * 8.0, DVec3::Z * 8.0, 4);
+    let scene = geometry(&[ground, sphere(DVec3::new(0.0, 1.0, 0.0), 0.6, 12)].concat());
+    let tracer = Tracer::new(&scene).unwrap();
+    let light = sun(DVec3::new(0.5, 1.0, 0.25));
+    let rays = picture(DVec3::new(0.5, 3.0, 4.0), DVec3::ZERO, [60, 45]);
+    let hits = tracer.primary(&rays);
+    let all: Vec<usize> = (0..hits.len()).collect();
+    let value = |v: &Option<f32>| v.unwrap_or(1.0);
+    let hard = tracer.hard(&rays, &light);
+    assert!(tracer.hard_at(&hits, &light).iter().map(value).eq(hard.values));
+    let fine = tracer.supersampled(&rays, &light, 3, &|_| ());
+    assert!(tracer.supersampled_at(&rays, &all, &light, 3).iter().map(value).eq(fine.values));
+    // Pixels whose own samples agree stop at 64 of them; the others are the same.
+    let (kernel, plane) = (Kernel::new(vec![1.0; 5]).unwrap(), plane(&light, 0.05, 0.0));
+    let ideal = tracer.light_space_ideal(&rays, &light, &kernel, &plane, &|_| ());
+    let chosen = tracer.light_space_ideal_at(&hits, &light, &kernel, &plane);
+    let mixed = chosen.iter().filter(|v| v.is_some_and(|v| v > 0.0 && v < 1.0)).count();
+    assert!(mixed > 50, "{mixed}");
+    for (i, (a, b)) in chosen.iter().map(value).zip(&ideal.values).enumerate() {
+        let same = if a > 0.0 && a < 1.0 { a == *b } else { (a - b).abs() < 0.02 };
+        assert!(same && chosen[i].is_some() == ideal.shadowable[i], "pixel {i}: {a} and {b}");
+    }
+    // Another light: what matters is where the points are.
+    let other = tracer.hard_at(&hits, &sun(DVec3::new(-0.5, 1.0, 0.25)));
+    assert_ne!(other, tracer.hard_at(&hits, &light));
+}

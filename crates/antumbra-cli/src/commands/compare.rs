@@ -35,7 +35,7 @@ pub(crate) fn run(arguments: &Compare) -> Result<()> {
         resolution: setting.resolution,
         grid: arguments.grid,
         rounds: arguments.rounds,
-        command: std::iter::once("antumbra".to_string()).chain(arguments_given()).collect(),
+        command: super::command_given(),
     };
     let comparison = {
         let bar = Bar::new();
@@ -64,11 +64,6 @@ fn warn(results: &Results) {
              reason; do not trust these scores (is the scene of extreme size?)"
         );
     }
-}
-
-/// As typed, but for what is no Unicode.
-fn arguments_given() -> impl Iterator<Item = String> {
-    std::env::args_os().skip(1).map(|argument| argument.to_string_lossy().into_owned())
 }
 
 fn print(out: &mut impl Write, results: &Results) -> Result<()> {

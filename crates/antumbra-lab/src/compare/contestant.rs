@@ -62,8 +62,7 @@ pub fn enter(
     enter_biased(gpu, stage, geometry, light, &entries, map_size)
 }
 
-/// Makes a shadow map of `map_size` × `map_size` texels for every technique, sharing pipelines, and
-/// gives all of them the light's only view, and the stage the views that they draw casters for.
+/// [`contestants`] with the light's only view.
 ///
 /// # Errors
 /// Settings that the device cannot do (naming the technique), a light or camera without a view.
@@ -75,6 +74,24 @@ pub fn enter_biased(
     entries: &[(Box<dyn Technique>, Bias)],
     map_size: u32,
 ) -> Result<(Vec<Contestant>, View)> {
+    let mut contestants = contestants(gpu, stage, entries, map_size)?;
+    let maps: Vec<&ShadowMap> = contestants.iter().map(|c| &c.shadows).collect();
+    let view = view(stage, geometry, light, &maps)?;
+    aim(gpu, stage, &mut contestants, &view)?;
+    Ok((contestants, view))
+}
+
+/// A shadow map of `map_size` × `map_size` texels for every technique and its bias, sharing pipelines,
+/// without a view yet.
+///
+/// # Errors
+/// Settings that the device cannot do, naming the technique.
+pub fn contestants(
+    gpu: &Gpu,
+    stage: &Stage,
+    entries: &[(Box<dyn Technique>, Bias)],
+    map_size: u32,
+) -> Result<Vec<Contestant>> {
     let pipelines = Pipelines::new(&gpu.device);
     let mut contestants = Vec::with_capacity(entries.len());
     for (technique, bias) in entries {
@@ -88,11 +105,17 @@ pub fn enter_biased(
         gpu.check().with_context(|| technique::spec(technique.as_ref()))?;
         contestants.push(Contestant { shadows, lookup, casters, classes });
     }
-    let maps: Vec<&ShadowMap> = contestants.iter().map(|c| &c.shadows).collect();
-    let view = view(stage, geometry, light, &maps)?;
+    Ok(contestants)
+}
+
+/// Gives all contestants a view, and the stage the views that they draw casters for.
+///
+/// # Errors
+/// Never for one view: every map has room for that.
+pub fn aim(gpu: &Gpu, stage: &mut Stage, contestants: &mut [Contestant], view: &View) -> Result<()> {
     let mut caster_views = Vec::new();
-    for contestant in &mut contestants {
-        contestant.shadows.prepare(&gpu.queue, &[view])?;
+    for contestant in contestants {
+        contestant.shadows.prepare(&gpu.queue, &[*view])?;
         for view in contestant.shadows.caster_views() {
             if !caster_views.contains(view) {
                 caster_views.push(*view);
@@ -100,5 +123,5 @@ pub fn enter_biased(
         }
     }
     stage.set_views(gpu, &caster_views);
-    Ok((contestants, view))
+    Ok(())
 }

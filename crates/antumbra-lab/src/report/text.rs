@@ -21,7 +21,7 @@ pub fn escape(text: &str) -> String {
 
 /// The template with each `{{key}}` replaced, in one pass, so that what is put in is never read as
 /// a template again.
-pub(super) fn fill(template: &str, parts: &[(&str, String)]) -> String {
+pub(crate) fn fill(template: &str, parts: &[(&str, String)]) -> String {
     let mut page = String::new();
     let mut rest = template;
     while let Some((before, after)) = rest.split_once("{{") {
@@ -62,7 +62,7 @@ pub fn milliseconds(ms: f64) -> String {
 }
 
 /// A time: "12.3 s".
-pub(super) fn seconds(s: f64) -> String {
+pub(crate) fn seconds(s: f64) -> String {
     if s < 0.1 { milliseconds(s * 1e3) } else { format!("{}\u{202f}s", significant(s)) }
 }
 

@@ -2,6 +2,8 @@
 
 use super::{Target, loaded, uniform};
 use crate::gpu::Gpu;
+use anyhow::Result;
+use glam::Vec3;
 use wgpu::TextureFormat;
 
 /// Position relative to the eye (w = 1 where there is a surface), facet normal, shading normal and
@@ -46,6 +48,17 @@ impl Surfaces {
     #[must_use]
     pub fn resolution(&self) -> [u32; 2] {
         self.resolution
+    }
+
+    /// Positions of what is drawn, relative to the eye; `None` where nothing is. Waits.
+    ///
+    /// # Errors
+    /// If the device is lost.
+    pub fn read_positions(&self, gpu: &Gpu) -> Result<Vec<Option<Vec3>>> {
+        let bytes = gpu.read(self.targets[0].texture())?;
+        let number = |b: &[u8]| f32::from_ne_bytes([b[0], b[1], b[2], b[3]]);
+        let texels = bytes.chunks_exact(16).map(|texel| [0, 4, 8, 12].map(|at| number(&texel[at..])));
+        Ok(texels.map(|[x, y, z, there]| (there != 0.0).then_some(Vec3::new(x, y, z))).collect())
     }
 
     pub(super) fn begin<'e>(

@@ -1,0 +1,121 @@
+//! `antumbra flicker`.
+
+use super::table;
+use crate::{
+    arguments::{Flicker, Motion},
+    progress::Bar,
+    scene,
+};
+use antumbra_lab::{
+    compare, files,
+    flicker::{self, Measured, Promise, Request, Results},
+    gpu::Gpu,
+    motion::{BadFrameCount, Path},
+};
+use anyhow::{Result, bail};
+use std::{
+    collections::BTreeMap,
+    io::{self, Write},
+};
+
+pub(crate) fn run(arguments: &Flicker) -> Result<()> {
+    if !(2..=Path::MOST_FRAMES).contains(&arguments.frames) {
+        bail!("--frames {}: {}", arguments.frames, BadFrameCount { count: arguments.frames });
+    }
+    if !(1..=16).contains(&arguments.grid) {
+        bail!("--grid {}: allowed are 1 to 16 rays along one side of a pixel", arguments.grid);
+    }
+    scene::check(&arguments.scene)?;
+    files::check_folder(&arguments.output)?;
+    let techniques = compare::techniques(&arguments.techniques, arguments.scene.kernel)?;
+    let setting = scene::load(&arguments.scene)?;
+    let shorter = setting.resolution[0].min(setting.resolution[1]);
+    if !(1..=shorter).contains(&arguments.stride) {
+        bail!("--stride {}: allowed are 1 to {shorter}, the shorter side of the picture", arguments.stride);
+    }
+    let gpu = Gpu::new()?;
+    let request = Request {
+        scene: setting.name,
+        geometry: setting.geometry,
+        camera: setting.camera,
+        light: setting.light,
+        path: path(arguments.path),
+        frames: arguments.frames,
+        techniques,
+        map_size: arguments.scene.size,
+        kernel: arguments.scene.kernel,
+        resolution: setting.resolution,
+        stride: arguments.stride,
+        grid: arguments.grid,
+        command: super::command_given(),
+    };
+    let outcome = {
+        let bar = Bar::new();
+        flicker::measure(&gpu, &request, &bar)?
+    };
+    let folder = flicker::write(&outcome, &arguments.output)?;
+    let out = &mut io::stdout();
+    if arguments.json {
+        writeln!(out, "{}", serde_json::to_string_pretty(&outcome.results)?)?;
+    } else {
+        print(out, &outcome.results)?;
+        writeln!(out, "\npage: {}", folder.join("index.html").display())?;
+    }
+    Ok(())
+}
+
+fn path(motion: Motion) -> Path {
+    match motion {
+        Motion::Camera => Path::Camera,
+        Motion::Light => Path::Light,
+        Motion::Both => Path::Both,
+        Motion::Recede => Path::Recede,
+    }
+}
+
+fn print(out: &mut impl Write, results: &Results) -> Result<()> {
+    writeln!(
+        out,
+        "mean |dv - dv of the truth| per pixel and frame, in thousandths; {} frames: {}\n",
+        results.frames, results.motion
+    )?;
+    let cell = |kept: &BTreeMap<Promise, Measured>, promise| {
+        kept.get(&promise).map_or("-".into(), |measured| format!("{:.3}", 1e3 * measured.mean))
+    };
+    let rows: Vec<Vec<String>> = results
+        .techniques
+        .iter()
+        .map(|technique| {
+            vec![
+                technique.spec.clone(),
+                technique.promise.title().into(),
+                technique.ratio_to_hard.map_or("-".into(), |ratio| format!("{ratio:.3}")),
+                cell(&technique.flicker, Promise::Hard),
+                cell(&technique.flicker, Promise::LightSpace),
+                cell(&technique.flicker, Promise::ScreenSpace),
+                cell(&technique.crawl, Promise::Hard),
+                cell(&technique.crawl, Promise::LightSpace),
+            ]
+        })
+        .collect();
+    let header = [
+        "technique",
+        "own truth",
+        "ratio to hard",
+        "hard",
+        "light-space",
+        "screen-space",
+        "crawl, hard",
+        "crawl, light-space",
+    ];
+    table::print(out, &header, &rows)?;
+    writeln!(
+        out,
+        "\nthe light-space ideal itself against the hard truth: {:.3}; texels changed their size {} times;\n{:.1} s, {:.1} s of that for the truths",
+        1e3 * results.ideal_against_hard,
+        results.texel_changes,
+        results.seconds_total,
+        results.seconds_tracing
+    )?;
+    Ok(())
+}

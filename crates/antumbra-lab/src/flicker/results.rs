@@ -1,0 +1,137 @@
+//! What was measured, as data.
+
+use crate::{
+    motion::Path,
+    results::{AdapterFacts, Program},
+};
+use antumbra::{Technique, technique::Family};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// Name and version of the data's layout.
+pub const SCHEMA: &str = "antumbra-flicker/1";
+
+/// What a technique promises, and so is judged by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Promise {
+    /// Sharp shadows: one shadow ray per pixel centre.
+    Hard,
+    /// The comparison's results, filtered over the kernel in the light's space.
+    LightSpace,
+    /// The mean over each pixel.
+    ScreenSpace,
+}
+
+impl Promise {
+    /// Sharp shadows from the nearest texel and from triangles; a mean over the pixel from kernels of a
+    /// pixel's size; the light-space ideal from all that filter. On a path that leads away, all are to
+    /// show the mean over each pixel, since the shadows are finer than that.
+    #[must_use]
+    pub fn of(technique: &dyn Technique, path: Path) -> Self {
+        let page = technique.page();
+        match (page.name, page.family) {
+            _ if path == Path::Recede => Self::ScreenSpace,
+            ("footprint", _) => Self::ScreenSpace,
+            ("hard", _) | (_, Family::Geometry) => Self::Hard,
+            _ => Self::LightSpace,
+        }
+    }
+
+    /// The same for hard shadow mapping.
+    pub(super) fn of_hard(path: Path) -> Self {
+        if path == Path::Recede { Self::ScreenSpace } else { Self::Hard }
+    }
+
+    /// For people.
+    #[must_use]
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Hard => "hard truth",
+            Self::LightSpace => "light-space ideal",
+            Self::ScreenSpace => "screen-space ideal",
+        }
+    }
+}
+
+/// Flicker against one truth.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Measured {
+    /// Mean |Δv − Δv_truth| per pixel and pair of frames.
+    pub mean: f64,
+    /// Over that of hard shadow mapping against the same truth; `null` where it was not measured.
+    pub ratio_to_hard: Option<f64>,
+    /// The mean of each pair of frames.
+    pub frames: Vec<f64>,
+}
+
+/// One technique.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct TechniqueFlicker {
+    /// Stem of its files.
+    pub name: String,
+    /// What reproduces it on the command line; unique.
+    pub spec: String,
+    /// Name for people.
+    pub title: String,
+    /// `comparison`, `basis` or `geometry`.
+    pub family: String,
+    /// The truth that it is judged by.
+    pub promise: Promise,
+    /// Flicker against its own truth over that of hard shadow mapping against its own; `null` where
+    /// that was not measured.
+    pub ratio_to_hard: Option<f64>,
+    /// In the picture.
+    pub flicker: BTreeMap<Promise, Measured>,
+    /// On surfaces; has no screen-space ideal.
+    pub crawl: BTreeMap<Promise, Measured>,
+}
+
+/// Everything that was measured.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Results {
+    /// [`SCHEMA`].
+    pub schema: String,
+    /// What measured it.
+    pub program: Program,
+    /// The command line.
+    pub command: Vec<String>,
+    /// Name of the scene.
+    pub scene: String,
+    /// Triangles after instancing.
+    pub triangles: u64,
+    /// Name of the path.
+    pub path: String,
+    /// What moved.
+    pub motion: String,
+    /// Number of frames.
+    pub frames: u32,
+    /// Pixels across and down.
+    pub resolution: [u32; 2],
+    /// Texels along one side of each map.
+    pub map_size: u32,
+    /// Kernel width of the light-space ideal, texels.
+    pub kernel_texels: u32,
+    /// Pixels from one that was asked for the ideals to the next.
+    pub stride: u32,
+    /// What drew it.
+    pub adapter: AdapterFacts,
+    /// Mean number of pixels that counted in a pair of frames.
+    pub pixels: f64,
+    /// Share of pixels in which raster and rays see the same point, of those that see any.
+    pub agreement: f64,
+    /// Flicker of the light-space ideal against the hard truth, mean per pixel and pair of frames.
+    pub ideal_against_hard: f64,
+    /// How often the size of a texel changed along the path: fitted maps change it in steps.
+    pub texel_changes: u32,
+    /// In the order that they were named.
+    pub techniques: Vec<TechniqueFlicker>,
+    /// Names of their pictures of where it flickers, in the same order.
+    pub heat_maps: Vec<String>,
+    /// Time spent on truths, seconds.
+    pub seconds_tracing: f64,
+    /// Time of the whole run, seconds.
+    pub seconds_total: f64,
+    /// The files of the page.
+    pub files: Vec<String>,
+}

@@ -1,0 +1,147 @@
+//! Flicker on small scenes: what is known must come out, and what is broken must be seen.
+
+#![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
+
+use antumbra::{Technique, technique};
+use antumbra_lab::{
+    compare::Silent,
+    flicker::{self, Promise, Request, Results, TechniqueFlicker},
+    gpu::Gpu,
+    motion::Path,
+};
+use antumbra_scene::{Camera, procedural};
+use antumbra_testing::{Trials, broken::Broken};
+
+fn main() {
+    let mut trials = Trials::default();
+    trials.add("sub_pixel_shadow_maps_hardly_flicker_where_polygons_are_large", |gpu| {
+        let both = request("contact", Path::Both, &["hard", "spsm"]);
+        let results = run(gpu, &Request { resolution: [240, 180], frames: 9, ..both });
+        let ratio = of(&results, "spsm").ratio_to_hard.unwrap();
+        // Measured: 0.027.
+        assert!(ratio < 0.05, "{ratio}");
+        assert_eq!(of(&results, "hard").ratio_to_hard, Some(1.0));
+    });
+    trials.add("a_lookup_that_depends_on_where_the_map_is_flickers_more", |gpu| {
+        let [whole, broken] = [hard(), wobbling()].map(|technique| run(gpu, &close_up(technique)));
+        let [whole, broken] = [&whole, &broken].map(|results| of(results, "hard"));
+        let flicker = |t: &TechniqueFlicker| t.flicker[&Promise::Hard].mean;
+        let crawl = |t: &TechniqueFlicker| t.crawl[&Promise::Hard].mean;
+        assert!(flicker(broken) > 1.3 * flicker(whole), "{} {}", flicker(broken), flicker(whole));
+        assert!(crawl(broken) > 5.0 * crawl(whole), "{} {}", crawl(broken), crawl(whole));
+    });
+    trials.add("surfaces_rest_while_the_map_moves_by_whole_texels", |gpu| {
+        let still = |results: &Results| {
+            let frames = &of(results, "hard").crawl[&Promise::Hard].frames;
+            (frames.iter().filter(|mean| **mean < 2e-4).count(), frames.len())
+        };
+        let whole = run(gpu, &close_up(hard()));
+        let (resting, of_all) = still(&whole);
+        assert!(resting > 0 && resting + whole.texel_changes as usize >= of_all, "{whole:?}");
+        let (resting, _) = still(&run(gpu, &close_up(wobbling())));
+        assert!(resting < of_all, "the map moves, so that a wobble shows");
+    });
+    trials.add("picture_and_surfaces_are_one_while_only_the_light_moves", |gpu| {
+        let results = run(gpu, &request("contact", Path::Light, &["hard", "pcf"]));
+        for technique in &results.techniques {
+            for promise in [Promise::Hard, Promise::LightSpace] {
+                assert_eq!(technique.flicker[&promise], technique.crawl[&promise], "{}", technique.spec);
+            }
+            assert!(technique.flicker[&Promise::Hard].mean > 0.0);
+        }
+    });
+    trials.add("filters_keep_their_own_promise_better", |gpu| {
+        let results = run(gpu, &request("spheres", Path::Both, &["hard", "pcf"]));
+        let pcf = of(&results, "pcf");
+        assert_eq!(pcf.promise, Promise::LightSpace);
+        assert!(pcf.flicker[&Promise::LightSpace].mean < pcf.flicker[&Promise::Hard].mean);
+        assert!(results.ideal_against_hard > 0.0);
+    });
+    trials.add("what_recedes_is_judged_by_its_mean_over_pixels", |gpu| {
+        let results = run(gpu, &request("contact", Path::Recede, &["hard", "csm.terms=4"]));
+        assert!(results.techniques.iter().all(|t| t.promise == Promise::ScreenSpace));
+    });
+    trials.add("bad_requests_are_refused_by_name", |gpu| {
+        let good = || request("contact", Path::Both, &["hard"]);
+        let refused = |request: Request, words: &str| {
+            let error = flicker::measure(&adopt(gpu), &request, &Silent).unwrap_err();
+            assert!(format!("{error:#}").contains(words), "{error:#}");
+        };
+        refused(Request { frames: 1, ..good() }, "1 frames show no motion");
+        refused(Request { frames: 0, ..good() }, "allowed are 2 to 10000");
+        refused(Request { stride: 0, ..good() }, "a stride of 0 pixels");
+        refused(Request { stride: 73, ..good() }, "allowed are 1 to 72");
+        refused(Request { techniques: Vec::new(), ..good() }, "no technique");
+    });
+    trials.add("the_page_is_whole_and_stands_alone", |gpu| {
+        let outcome = measure(gpu, &request("contact", Path::Both, &["hard", "esm"]));
+        let folder = std::env::temp_dir().join(format!("antumbra-flicker-{}", std::process::id()));
+        for _ in 0..2 {
+            flicker::write(&outcome, &folder).unwrap();
+        }
+        let page = std::fs::read_to_string(folder.join("index.html")).unwrap();
+        let data = std::fs::read_to_string(folder.join("flicker.json")).unwrap();
+        std::fs::remove_dir_all(&folder).unwrap();
+        let read: Results = serde_json::from_str(&data).unwrap();
+        assert_eq!(read.techniques.len(), 2);
+        for file in ["index.html", "film.png", "strip.png", "row.png", "hard-heat.png"] {
+            assert!(read.files.iter().any(|name| name == file), "{file}: {:?}", read.files);
+        }
+        assert_eq!(page.matches("data:image/png;base64,").count(), 5);
+        assert!(!page.contains("src=\"http") && !page.contains("{{"));
+    });
+    trials.run();
+}
+
+fn request(scene: &str, path: Path, techniques: &[&str]) -> Request {
+    let scene = procedural::by_name(scene).unwrap().scene(1);
+    Request {
+        scene: scene.name.clone(),
+        camera: scene.main_camera(),
+        light: scene.main_light(),
+        geometry: scene.flatten(),
+        path,
+        frames: 5,
+        techniques: techniques.iter().map(|spec| technique::parse(spec).unwrap()).collect(),
+        map_size: 256,
+        kernel: 5,
+        resolution: [96, 72],
+        stride: 2,
+        grid: 3,
+        command: Vec::new(),
+    }
+}
+
+fn hard() -> Box<dyn Technique> {
+    technique::parse("hard").unwrap()
+}
+
+/// Takes a neighbouring texel here and there, depending on where in the map a point lies.
+fn wobbling() -> Box<dyn Technique> {
+    let wobble = "floor(uv * size + 0.5 * sign(sin(1e5 * uv.x)))";
+    Box::new(Broken::saying("hard", "floor(uv * size)", wobble))
+}
+
+/// The camera moves close to things, so that the light's view has to follow it.
+fn close_up(technique: Box<dyn Technique>) -> Request {
+    let far = request("spheres", Path::Camera, &[]);
+    let position = far.camera.target.lerp(far.camera.position, 0.5);
+    let camera = Camera { position, ..far.camera };
+    Request { camera, frames: 9, techniques: vec![technique], ..far }
+}
+
+fn adopt(gpu: &antumbra_testing::Gpu) -> Gpu {
+    Gpu::adopt(gpu.device.clone(), gpu.queue.clone(), gpu.info.clone())
+}
+
+fn measure(gpu: &antumbra_testing::Gpu, request: &Request) -> flicker::Outcome {
+    flicker::measure(&adopt(gpu), request, &Silent).unwrap()
+}
+
+fn run(gpu: &antumbra_testing::Gpu, request: &Request) -> Results {
+    measure(gpu, request).results
+}
+
+fn of<'a>(results: &'a Results, name: &str) -> &'a TechniqueFlicker {
+    results.techniques.iter().find(|technique| technique.name == name).unwrap()
+}
