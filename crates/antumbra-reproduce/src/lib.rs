@@ -17,13 +17,16 @@ pub mod bench;
 pub mod cache;
 mod csm;
 mod esm;
+mod gallery;
 pub mod html;
+mod numbers;
 pub mod page;
 pub mod raster;
 pub mod results;
 mod run;
 mod slides;
 pub mod study;
+mod table;
 pub mod target;
 pub mod verdict;
 
