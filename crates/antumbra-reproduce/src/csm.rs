@@ -8,6 +8,8 @@ mod layers;
 mod speed;
 mod terms;
 
+pub(crate) use curves::{Step, panel};
+
 pub(crate) const SOURCE: Source = Source {
     key: "csm",
     name: "Annen et al. 2007, Convolution shadow maps",

@@ -14,14 +14,21 @@ pub(crate) fn rows(
     pictures: &[(&str, &Raster)],
     window: Window,
 ) -> Result<()> {
-    let mut whole = Vec::new();
-    let mut close = Vec::new();
-    for (name, picture) in pictures {
-        whole.push(Tile::new(*name, &picture.framed(window))?);
-        close.push(Tile::close_up(*name, picture, window)?);
-    }
-    page.pictures(captions[0], columns, whole);
-    page.pictures(captions[1], columns, close);
+    let whole = pictures.iter().map(|(name, picture)| Tile::new(*name, &picture.framed(window)));
+    page.pictures(captions[0], columns, whole.collect::<Result<_>>()?);
+    close_ups(page, captions[1], columns, pictures, window)
+}
+
+/// A row of one window enlarged.
+pub(crate) fn close_ups(
+    page: &mut Page,
+    caption: &str,
+    columns: usize,
+    pictures: &[(&str, &Raster)],
+    window: Window,
+) -> Result<()> {
+    let close = pictures.iter().map(|(name, picture)| Tile::close_up(*name, picture, window));
+    page.pictures(caption, columns, close.collect::<Result<_>>()?);
     Ok(())
 }
 

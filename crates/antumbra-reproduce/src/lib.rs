@@ -14,6 +14,7 @@
 //! Every verdict is computed from what was measured ([`verdict`]).
 
 pub mod bench;
+mod brabec;
 pub mod cache;
 mod csm;
 mod esm;
@@ -25,6 +26,7 @@ pub mod raster;
 pub mod results;
 mod run;
 mod slides;
+mod spsm;
 pub mod study;
 mod table;
 pub mod target;

@@ -3,7 +3,7 @@
 use crate::{
     bench::Bench,
     page::{Block, Column, Entry, Matrix, Page, Unit},
-    study::{Study, Truth},
+    study::{Look, Study, Truth},
     target::{Source, Target},
 };
 use antumbra::technique;
@@ -80,19 +80,35 @@ const QUANTITIES: &[Quantity] = &[
 fn run(bench: &Bench<'_>) -> Result<Page> {
     let techniques = compare::techniques(&["all".into()], KERNEL)?;
     let specs: Vec<String> = techniques.iter().map(|t| technique::spec(t.as_ref())).collect();
-    let families: Vec<&str> = techniques.iter().map(|t| t.page().family.name()).collect();
+    let family = |spec: &str| -> String {
+        let found = specs.iter().position(|s| s == spec);
+        found.map_or(String::new(), |i| techniques[i].page().family.name().into())
+    };
     let mut rows = Vec::new();
+    let mut page = Page::default();
     for scene in procedural::all() {
-        let (study, values) = scene_values(bench, scene.name, &specs)?;
-        let entry = |((look, values), family): ((&crate::study::Look, Vec<Option<f64>>), &&str)| Entry {
+        let (shot, map) = (bench.shot(scene.name, [512, 384]), bench.map(1024));
+        let mut specs: Vec<&str> = specs.iter().map(String::as_str).collect();
+        let mut study = bench.study(shot, map, &specs);
+        if study.is_err() {
+            let refused = bench.refused(shot, map, &specs)?;
+            specs.retain(|spec| !refused.contains_key(*spec));
+            study = bench.study(shot, map, &specs);
+            for (spec, reason) in refused {
+                page.text(format!("{spec} was left out on {}: {reason}", scene.name));
+            }
+        }
+        let study = study?;
+        let values = scene_values(bench, &study, &specs)?;
+        let entry = |(look, values): (&Look, Vec<Option<f64>>)| Entry {
             scene: scene.name.into(),
             technique: look.spec.clone(),
             title: look.title.clone(),
-            family: (*family).into(),
+            family: family(&look.spec),
             values,
             leads: Vec::new(),
         };
-        rows.extend(study.looks.iter().zip(values).zip(&families).map(entry));
+        rows.extend(study.looks.iter().zip(values).map(entry));
     }
     let mut rows = [means(&rows), rows].concat();
     mark_fronts(&mut rows);
@@ -111,29 +127,21 @@ fn run(bench: &Bench<'_>) -> Result<Page> {
         columns: QUANTITIES.iter().map(column).collect(),
         rows,
     };
-    let mut page = Page::default();
-    page.blocks.push(Block::Matrix(matrix));
+    page.blocks.insert(0, Block::Matrix(matrix));
     Ok(page)
 }
 
-fn scene_values(
-    bench: &Bench<'_>,
-    scene: &'static str,
-    specs: &[String],
-) -> Result<(Study, Vec<Vec<Option<f64>>>)> {
-    let specs: Vec<&str> = specs.iter().map(String::as_str).collect();
-    let (shot, map) = (bench.shot(scene, [512, 384]), bench.map(1024));
-    let study = bench.study(shot, map, &specs)?;
-    let truths = bench.truths(&study, &[Truth::Hard, Truth::LightSpace(KERNEL), Truth::ScreenSpace(4)])?;
-    let entrants: Vec<(u32, &str)> = specs.iter().map(|spec| (map, *spec)).collect();
-    let times = bench.race(shot, &entrants, bench.rounds(3))?;
+fn scene_values(bench: &Bench<'_>, study: &Study, specs: &[&str]) -> Result<Vec<Vec<Option<f64>>>> {
+    let truths = bench.truths(study, &[Truth::Hard, Truth::LightSpace(KERNEL), Truth::ScreenSpace(4)])?;
+    let entrants: Vec<(u32, &str)> = specs.iter().map(|spec| (study.map, *spec)).collect();
+    let times = bench.race(study.shot, &entrants, bench.rounds(3))?;
     let hard = specs.iter().position(|s| *s == "hard").context("the standard shadow map is missing")?;
     let median = |time: &TimeResult| time.frame.median_ms;
     let mut all = Vec::new();
     for ((spec, look), time) in specs.iter().zip(&study.looks).zip(&times) {
         let mut scores = Vec::new();
         for truth in &truths {
-            scores.push(bench.score(&study, spec, truth, None)?);
+            scores.push(bench.score(study, spec, truth, None)?);
         }
         let measured = Measured {
             hard: &scores[0],
@@ -144,7 +152,7 @@ fn scene_values(
         };
         all.push(QUANTITIES.iter().map(|q| (q.6)(&measured).filter(|v| v.is_finite())).collect());
     }
-    Ok((study, all))
+    Ok(all)
 }
 
 /// A row for each technique with the means over its scenes.
