@@ -68,8 +68,8 @@ pub(crate) const SOURCE: Source = Source {
             title: "How many terms a shadow needs",
             paper: "Few terms brighten shadows where occluder and receiver are close: a low square, a slanted polygon that \
                     touches the ground. M = 4 is satisfactory, without noticeable intensity artifacts; M = 16 is sharper.",
-            ours: "The scene blocks with its four floating squares and slanted polygon, a 1024² map, 3×3 Gauss, 8-bit \
-                   coefficients, M from 1 to 32. Contact is where the caster is nearer than a twentieth of the depth range.",
+            ours: "The scenes blocks, with four floating squares and a slanted polygon, and spheres; 1024² maps, 3×3 Gauss, \
+                   8-bit coefficients, M from 2 to 32. Contact is where the caster is nearer than a twentieth of the depth range.",
             seconds: [20, 5],
             run: terms::figure_6,
         },
@@ -99,7 +99,7 @@ pub(crate) const SOURCE: Source = Source {
                     Objects behind the fence add depth complexity: light leaks into the VSM's shadows there, while the \
                     CSM renders them without artifacts.",
             ours: "The scenes fence and layers, a 2048² map, a 7×7 Gaussian. A VSM leaks where its visibility is above \
-                   0.05 though rays say full shadow. Pixels whose caster is nearer than the ramp of the CSM, 7 % of the \
+                   0.05 though rays say full shadow there and within 4 pixels. Pixels whose caster is nearer than the ramp of the CSM, 7 % of the \
                    depth range, are left out: there the CSM is known to be too bright (figure 6).",
             seconds: [40, 6],
             run: layers::figure_9,

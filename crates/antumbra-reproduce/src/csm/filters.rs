@@ -135,15 +135,18 @@ pub(super) fn figure_8(bench: &Bench<'_>) -> Result<Page> {
 
 /// Errors of the standard map and of the CSM, by size.
 fn hidden(hard: &[f64], csm: &[f64]) -> Verdict {
-    let most = csm.iter().zip(hard).map(|(c, h)| c / h).reduce(f64::max);
+    let ratios = csm.iter().zip(hard).map(|(c, h)| c / h);
     Verdict::new(
         "A kernel of 7×7 hides the texels of small maps",
-        [at_most(
-            "largest RMSE at shadow edges over that of the standard map, 128² to 1024²",
-            most,
-            "one half",
-            0.5,
-        )],
+        [
+            at_most(
+                "larger RMSE at shadow edges over that of the standard map, 128² and 256²",
+                ratios.clone().take(2).reduce(f64::max),
+                "one half",
+                0.5,
+            ),
+            less("the largest such quotient of all sizes", ratios.reduce(f64::max), "1", 1.0),
+        ],
     )
 }
 
@@ -162,5 +165,6 @@ mod tests {
         assert_eq!(recovered(0.05, 0.3, 0.1).outcome(), Differs);
         assert_eq!(hidden(&[0.2, 0.1], &[0.05, 0.04]).outcome(), Holds);
         assert_eq!(hidden(&[0.2, 0.1], &[0.05, 0.06]).outcome(), Differs);
+        assert_eq!(hidden(&[0.2, 0.2, 0.1], &[0.05, 0.06, 0.2]).outcome(), Differs);
     }
 }

@@ -8,12 +8,15 @@ use crate::{
     study::Truth,
     verdict::{Verdict, less},
 };
+use antumbra_lab::plane::Plane;
 use anyhow::Result;
 
 const SPECS: [&str; 2] = ["vsm.kernel=7", "csm.kernel=7"];
 const KERNEL: u32 = 7;
 /// Share of the depth range: the ramp of a CSM with 16 terms.
 const NEAR: f64 = 0.07;
+/// Pixels around one that may not be lit.
+const DEEP: usize = 4;
 /// A VSM leaks from this visibility on.
 const LEAKS: f32 = 0.05;
 
@@ -32,8 +35,9 @@ pub(super) fn figure_9(bench: &Bench<'_>) -> Result<Page> {
         let visible = [vsm.visibility()?.values, csm.visibility()?.values];
         let shadow: Vec<bool> =
             ideal.plane.values.iter().zip(&ideal.shadowable).map(|(v, s)| *s && *v == 0.0).collect();
+        let deep = deep(&ideal.plane, &ideal.shadowable);
         let leaking: Vec<bool> = (0..shadow.len())
-            .map(|i| shadow[i] && visible[0][i] > LEAKS && contact.get(i) == Some(&false))
+            .map(|i| deep[i] && shadow[i] && visible[0][i] > LEAKS && contact.get(i) == Some(&false))
             .collect();
         let share = mean(&leaking.iter().map(|l| f32::from(u8::from(*l))).collect::<Vec<_>>(), &shadow);
         let there = visible.each_ref().map(|v| mean(v, &leaking));
@@ -71,6 +75,19 @@ pub(super) fn figure_9(bench: &Bench<'_>) -> Result<Page> {
     Ok(page)
 }
 
+/// Pixels with none nearby that can be lit and is: those that a filter of a pixel's footprint may not
+/// brighten either.
+fn deep(ideal: &Plane, shadowable: &[bool]) -> Vec<bool> {
+    let [width, height] = [ideal.width, ideal.height].map(|n| n as usize);
+    let lit: Vec<bool> = ideal.values.iter().zip(shadowable).map(|(v, s)| *s && *v > 0.0).collect();
+    let around = |at: usize, size: usize| at.saturating_sub(DEEP)..(at + DEEP + 1).min(size);
+    let is_deep = |i: usize| {
+        let (x, y) = (i % width, i / width);
+        around(y, height).all(|row| around(x, width).all(|column| !lit[row * width + column]))
+    };
+    (0..lit.len()).map(is_deep).collect()
+}
+
 /// Mean over the pixels of a mask; `None` if there is none.
 fn mean(values: &[f32], mask: &[bool]) -> Option<f64> {
     let chosen = || values.iter().zip(mask).filter(|(_, m)| **m).map(|(v, _)| f64::from(*v));
@@ -98,5 +115,8 @@ mod tests {
         assert_eq!(no_leaking("s", [None, None]).outcome(), Open);
         assert_eq!(mean(&[1.0, 0.5, 0.25], &[false, true, true]), Some(0.375));
         assert_eq!(mean(&[1.0], &[false]), None);
+        let ideal = Plane::from_fn(20, 1, |x, _| f32::from(u8::from(x == 10)));
+        let deep = deep(&ideal, &[true; 20]);
+        assert_eq!([deep[5], deep[6], deep[14], deep[15]], [true, false, false, true]);
     }
 }

@@ -23,6 +23,10 @@ pub(super) fn table_1(bench: &Bench<'_>) -> Result<Page> {
     let mut page = Page::default();
     let mut overheads = Vec::new();
     for (scene, name, standard, subpixel) in TABLE_1 {
+        if bench.quick && scene == "city" {
+            page.text("A quick run leaves the city out.");
+            continue;
+        }
         let maps = [1024, 2048].map(|m| bench.map(m));
         let entrants = [(maps[0], "hard"), (maps[0], "spsm"), (maps[1], "hard"), (maps[1], "spsm")];
         let rounds = if scene == "city" { 1 } else { bench.rounds(3) };
