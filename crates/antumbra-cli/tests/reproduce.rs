@@ -64,7 +64,7 @@ fn pages() {
     assert!(csv.lines().filter(|l| l.starts_with("csm/figure-9,")).count() >= 6, "{csv}");
     for verdict in both["targets"].as_array().unwrap().iter().flat_map(|t| t["verdicts"].as_array().unwrap())
     {
-        assert!(["holds", "differs"].contains(&verdict["outcome"].as_str().unwrap()), "{verdict}");
+        assert!(["holds", "differs", "open"].contains(&verdict["outcome"].as_str().unwrap()), "{verdict}");
         assert!(!verdict["comparisons"].as_array().unwrap().is_empty());
     }
 }

@@ -6,7 +6,7 @@ use antumbra::{
     CasterMesh, DEPTH_FORMAT, Options, ShadowMap, Size, Technique, View,
     technique::{self, Bias, Caster},
 };
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 use glam::{Mat4, Vec4};
 
 /// Room for the widest kernel on both sides of the middle.
@@ -19,6 +19,37 @@ const SIZE: Size = Size::square(64);
 /// # Errors
 /// Settings that the device cannot do, naming the technique; a lost device.
 pub fn visibility(gpu: &Gpu, technique: &dyn Technique, caster: f32, receivers: &[f32]) -> Result<Vec<f32>> {
+    let questions: Vec<[f32; 2]> = receivers.iter().map(|depth| [0.0, *depth]).collect();
+    answers(gpu, technique, caster, SIZE.width, &questions)
+}
+
+/// What `shadow_visibility` answers across the edge of a caster that covers the left half of the map's
+/// texels at depth ¼, for receivers at depth ¾. `positions` are in texels from the edge, to the right, and
+/// at most 16 each way. Answers are 0 in shadow, 1 lit.
+///
+/// # Errors
+/// As [`visibility`]; a technique that keeps triangles, which has no texels to filter.
+pub fn edge(gpu: &Gpu, technique: &dyn Technique, positions: &[f32]) -> Result<Vec<f32>> {
+    let texel = 2.0 / SIZE.width as f32;
+    if technique.caster() != Caster::Depth {
+        bail!("{} keeps triangles and filters no texels", technique::spec(technique));
+    }
+    if let Some(far) = positions.iter().find(|p| !(-16.0..=16.0).contains(*p)) {
+        bail!("a position {far} texels from the edge: allowed are −16 to 16");
+    }
+    let questions: Vec<[f32; 2]> = positions.iter().map(|p| [p * texel, 0.75]).collect();
+    answers(gpu, technique, 0.25, SIZE.width / 2, &questions)
+}
+
+/// Answers to questions (position across the map from −1 to 1, depth) where the caster covers so many
+/// columns of texels from the left.
+fn answers(
+    gpu: &Gpu,
+    technique: &dyn Technique,
+    caster: f32,
+    columns: u32,
+    questions: &[[f32; 2]],
+) -> Result<Vec<f32>> {
     let options = Options::from(SIZE).bias(Bias::NONE);
     let mut shadows =
         ShadowMap::new(&gpu.device, technique, options).with_context(|| technique::spec(technique))?;
@@ -29,6 +60,7 @@ pub fn visibility(gpu: &Gpu, technique: &dyn Technique, caster: f32, receivers: 
             let flat = flat(gpu, caster);
             shadows.encode(&mut encoder, |_, pass| {
                 pass.set_pipeline(&flat);
+                pass.set_scissor_rect(0, 0, columns, SIZE.height);
                 pass.draw(0..3, 0..1);
             });
         }
@@ -37,10 +69,10 @@ pub fn visibility(gpu: &Gpu, technique: &dyn Technique, caster: f32, receivers: 
             shadows.encode(&mut encoder, |view, pass| triangle.draw(view, pass));
         }
     }
-    let answers = ask(gpu, &shadows, receivers, &mut encoder);
+    let answers = ask(gpu, &shadows, questions, &mut encoder);
     gpu.finish(encoder).with_context(|| technique::spec(technique))?;
     let bytes = gpu.map(&answers)?;
-    Ok(bytemuck::pod_collect_to_vec(&bytes[..4 * receivers.len()]))
+    Ok(bytemuck::pod_collect_to_vec(&bytes[..4 * questions.len()]))
 }
 
 /// A view whose light space is world space: x and y in [−1,1] (y up), depth z in [0,1].
@@ -99,7 +131,7 @@ fn flat(gpu: &Gpu, depth: f32) -> wgpu::RenderPipeline {
 fn ask(
     gpu: &Gpu,
     shadows: &ShadowMap,
-    receivers: &[f32],
+    receivers: &[[f32; 2]],
     encoder: &mut wgpu::CommandEncoder,
 ) -> wgpu::Buffer {
     use wgpu::BufferUsages as Usage;

@@ -222,9 +222,9 @@ impl Stage {
     pub fn draw_casters(&self, casters: &Casters, view: &antumbra::View, pass: &mut RenderPass<'_>) {
         let opaque = self.groups.iter().filter(|g| !g.2).map(|g| g.1.end).max().unwrap_or(0);
         let masked = self.groups.iter().filter(|g| g.2);
-        if let Casters::Triangles { mesh, cutout, attributes } = casters {
+        if let Casters::Triangles { mesh, cutout } = casters {
             mesh.draw_part(view, pass, 0..opaque / 3);
-            let Some(cutout) = cutout else { return };
+            let Some((cutout, attributes)) = cutout else { return };
             pass.set_pipeline(cutout);
             pass.set_bind_group(3, attributes, &[]);
             for (material, range, _) in masked {

@@ -57,11 +57,10 @@ struct Loaded {
     light: Light,
 }
 
-/// Whether this program has the technique that a spec names.
+/// The first spec that this program can read, if any.
 #[must_use]
-pub fn knows(spec: &str) -> bool {
-    let name = spec.split('.').next().unwrap_or(spec);
-    technique::all().iter().any(|t| t.page().name == name)
+pub fn first_known<'s>(specs: &[&'s str]) -> Option<&'s str> {
+    specs.iter().copied().find(|spec| technique::parse(spec).is_ok())
 }
 
 fn parse(specs: &[&str]) -> Result<Vec<Box<dyn Technique>>> {
@@ -136,6 +135,28 @@ impl<'a> Bench<'a> {
         let file = self.cache.memo(&key, || self.draw(&shot, map, specs))?;
         let key = serde_json::to_string(&key)?;
         Ok(Study { shot, map, looks: file.looks, view: file.view, key })
+    }
+
+    /// The techniques of `specs` that the device refuses for this shot, with its reasons. For when
+    /// [`study`](Self::study) fails: it tries each alone.
+    ///
+    /// # Errors
+    /// A scene that cannot be uploaded.
+    pub fn refused(&self, shot: Shot, map: u32, specs: &[&str]) -> Result<BTreeMap<String, String>> {
+        self.cache.memo(&("refused", shot, map, specs), || {
+            let scene = self.scene(shot.scene)?;
+            let mut refused = BTreeMap::new();
+            for spec in specs {
+                self.progress.step(&format!("try {spec} on {}", shot.scene));
+                let mut stage = self.stage(&shot, &scene)?;
+                let (geometry, light) = (&scene.geometry, &scene.light);
+                let tried = compare::enter(&self.gpu, &mut stage, geometry, light, &parse(&[*spec])?, map);
+                if let Err(reason) = tried {
+                    refused.insert((*spec).to_string(), format!("{reason:#}"));
+                }
+            }
+            Ok(refused)
+        })
     }
 
     fn draw(&self, shot: &Shot, map: u32, specs: &[&str]) -> Result<StudyFile> {
@@ -360,6 +381,17 @@ impl<'a> Bench<'a> {
         self.cache.memo(&("curve", spec, caster, receivers), || {
             self.progress.step(&format!("curve of {spec}"));
             curve::visibility(&self.gpu, technique::parse(spec)?.as_ref(), caster, receivers)
+        })
+    }
+
+    /// What [`curve::edge`] answers across the edge of a caster.
+    ///
+    /// # Errors
+    /// As [`study`](Self::study).
+    pub fn edge(&self, spec: &str, positions: &[f32]) -> Result<Vec<f32>> {
+        self.cache.memo(&("edge", spec, positions), || {
+            self.progress.step(&format!("edge with {spec}"));
+            curve::edge(&self.gpu, technique::parse(spec)?.as_ref(), positions)
         })
     }
 

@@ -2,23 +2,107 @@
 
 use crate::target::{Source, Target};
 
+mod curves;
+mod filters;
 mod layers;
 mod receding;
+mod speed;
+mod terms;
+
+pub(crate) use curves::{Step, panel};
 
 pub(crate) const SOURCE: Source = Source {
     key: "csm",
     name: "Annen et al. 2007, Convolution shadow maps",
     targets: &[
         Target {
+            id: "csm/figure-1",
+            title: "Minification: PCF against mip-mapped CSM",
+            paper: "Percentage-closer filtering does not support trilinear filtering and aliases severely when many texels \
+                    fall on a pixel. A CSM is mip-mapped like any texture; with a 7×7 blur it hides the texels as well.",
+            ours: "The scene fence from four times its distance, a 2048² map. The truth is sharp, with 64 rays per pixel. \
+                   A CSM without mips (bilinear) shows what the mip levels add.",
+            seconds: [30, 6],
+            run: filters::figure_1,
+        },
+        Target {
+            id: "csm/table-1",
+            title: "Frame times over map size, kernel and number of terms",
+            paper: "Frames per second for maps of 256² to 2048², M of 4, 8 and 16 terms, without blur and with 3×3 and 7×7, \
+                    beside hardware PCF; 1024×768 pixels, 365,000 triangles, 16× anisotropic filtering.",
+            ours: "The same grid on the scene fence with 365,000 triangles at 1024×768 pixels. Each cell is the frame \
+                   time over that of PCF (one bilinear lookup) with a map of the same size.",
+            seconds: [150, 15],
+            run: speed::table_1,
+        },
+        Target {
+            id: "csm/figure-3",
+            title: "The step of the shadow test and how it is mended",
+            paper: "Plots of the reconstructed step over d − z: more terms are steeper but ring (a); attenuation suppresses \
+                    ringing and widens the step (b); an offset (c) or a scale (d) lights surfaces that would be half dark.",
+            ours: "What receivers get from a map whose every texel holds one depth, without bias and clamped to 0..1, so \
+                   that ringing beyond shows as a flat.",
+            seconds: [6, 5],
+            run: curves::figure_3,
+        },
+        Target {
+            id: "csm/figure-4",
+            title: "Scaling against offsetting",
+            paper: "Scaling the series by two (a) lights surfaces but sharpens shadows; an offset (b) keeps the blur but has \
+                    less shadow near contact points. 5×5 Gauss, M = 16.",
+            ours: "The scene blocks, a 1024² map, the same two settings.",
+            seconds: [15, 4],
+            run: terms::figure_4,
+        },
+        Target {
+            id: "csm/figure-5",
+            title: "Basis textures, and whether 8 bits suffice",
+            paper: "A shadow map and its basis textures for M = 16. 32-bit floats did not produce noticeable differences, so \
+                    that 8 bits per basis function are used.",
+            ours: "The maps of the scene blocks; pictures of the scenes fence and blocks with 8-bit, 16-bit and 32-bit \
+                   coefficients, 2048² maps, 5×5 Gauss.",
+            seconds: [30, 8],
+            run: terms::figure_5,
+        },
+        Target {
+            id: "csm/figure-6",
+            title: "How many terms a shadow needs",
+            paper: "Few terms brighten shadows where occluder and receiver are close: a low square, a slanted polygon that \
+                    touches the ground. M = 4 is satisfactory, without noticeable intensity artifacts; M = 16 is sharper.",
+            ours: "The scenes blocks, with four floating squares and a slanted polygon, and spheres; 1024² maps, 3×3 Gauss, \
+                   8-bit coefficients, M from 2 to 32. Contact is where the caster is nearer than a twentieth of the depth range.",
+            seconds: [20, 5],
+            run: terms::figure_6,
+        },
+        Target {
+            id: "csm/figure-7",
+            title: "Thin branches under seven filters",
+            paper: "Two trees lit from the side: PCF (a) and a CSM with bilinear lookups (b) lose thin branches; trilinear \
+                    anisotropic lookups (c) recover them; blurs of 3×3, 5×5 and 7×7 (d to f) hide the texels.",
+            ours: "The scene trees, a 2048² map, 16× anisotropic lookups. The truth is sharp, with 16 rays per pixel.",
+            seconds: [60, 8],
+            run: filters::figure_7,
+        },
+        Target {
+            id: "csm/figure-8",
+            title: "Small maps hidden by large kernels",
+            paper: "Maps of 128² to 1024² with kernels of 3×3 and 7×7: with a kernel that is large enough even small maps give \
+                    soft shadows without visible texels.",
+            ours: "The scene spheres with the same grid. Texels show as error to the light-space ideal of the same kernel; a \
+                   standard map of the same size is judged by the same ideal.",
+            seconds: [60, 8],
+            run: filters::figure_8,
+        },
+        Target {
             id: "csm/figure-9",
             title: "Light leaking behind a fence: VSM against CSM",
             paper: "A fence in front of other objects, with a variance shadow map (a) and a convolution shadow map (b). \
-                Objects behind the fence add depth complexity: light leaks into the VSM's shadows there, while the CSM \
-                renders them without artifacts.",
-            ours: "The scenes fence and layers, a 2048² map, a 7×7 Gaussian. Leaks are mean visibilities where rays say \
-               full shadow, over all such pixels and over those behind several layers of casters: the first one at \
-               least a tenth of the depth range away, which is more than the ramp of the CSM, others as far beyond it.",
-            seconds: [30, 6],
+                    Objects behind the fence add depth complexity: light leaks into the VSM's shadows there, while the \
+                    CSM renders them without artifacts.",
+            ours: "The scenes fence and layers, a 2048² map, a 7×7 Gaussian. A VSM leaks where its visibility is above \
+                   0.05 though rays say full shadow there and within 4 pixels. Pixels whose caster is nearer than the ramp of the CSM, 7 % of the \
+                   depth range, are left out: there the CSM is known to be too bright (figure 6).",
+            seconds: [40, 6],
             run: layers::figure_9,
         },
         Target {

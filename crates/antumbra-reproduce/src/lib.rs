@@ -14,16 +14,21 @@
 //! Every verdict is computed from what was measured ([`verdict`]).
 
 pub mod bench;
+mod brabec;
 pub mod cache;
 mod csm;
 mod esm;
+mod gallery;
 pub mod html;
+mod numbers;
 pub mod page;
 pub mod raster;
 pub mod results;
 mod run;
 mod slides;
+mod spsm;
 pub mod study;
+mod table;
 pub mod target;
 pub mod verdict;
 

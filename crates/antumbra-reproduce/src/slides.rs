@@ -12,19 +12,51 @@ use antumbra_lab::plane::Plane;
 use anyhow::Result;
 use std::collections::BTreeSet;
 
+mod lookups;
+
 pub(crate) const SOURCE: Source = Source {
     key: "slides",
     name: "Lecture slides, Hard shadows: filtering",
-    targets: &[Target {
-        id: "slides/pcf-row",
-        title: "Percentage-closer filtering of growing kernels",
-        paper: "One scene with a standard shadow map, with 2×2, 3×3 and 4×4 percentage-closer filtering, and with \
+    targets: &[
+        Target {
+            id: "slides/pcf-row",
+            title: "Percentage-closer filtering of growing kernels",
+            paper: "One scene with a standard shadow map, with 2×2, 3×3 and 4×4 percentage-closer filtering, and with \
                 4×4 of bilinear lookups. Nearest-neighbour lookups leave quantisation; bilinear ones do not.",
-        ours: "The scene spheres with a 512² map, so that texels show. Scored against rays: the ideal that a Gaussian \
+            ours: "The scene spheres with a 512² map, so that texels show. Scored against rays: the ideal that a Gaussian \
                of the same width in light space would give.",
-        seconds: [20, 4],
-        run: pcf_row,
-    }],
+            seconds: [20, 4],
+            run: pcf_row,
+        },
+        Target {
+            id: "slides/bicubic",
+            title: "Bicubic filtering with four bilinear lookups",
+            paper: "For bigger kernels than 2×2, the exact bicubic convolution takes four bilinear lookups.",
+            ours: "Visibility across the straight edge of a caster, position by position, beside the convolution of the \
+                   texels' comparisons with the cubic B-spline, computed in double precision.",
+            seconds: [4, 3],
+            run: lookups::bicubic,
+        },
+        Target {
+            id: "slides/vsm-layers",
+            title: "Light bleeding and layered variance shadow maps",
+            paper: "A VSM works in many situations, but light bleeds where the variance is large; several layered VSMs \
+                    alleviate it.",
+            ours: "The scene layers, a 1024² map, 5×5 Gauss: a VSM and layered ones of 2, 4 and 8 intervals of depth.",
+            seconds: [20, 5],
+            run: lookups::vsm_layers,
+        },
+        Target {
+            id: "slides/sat",
+            title: "Summed-area tables: rectangles at constant cost",
+            paper: "Percentage-closer filtering grows with the square of the kernel; a summed-area table sums any rectangle \
+                    in constant time.",
+            ours: "Lookup times of VSM with a summed-area table for boxes of 3×3 to 63×63 texels, and of PCF for kernels of \
+                   2×2 to 16×16; scene spheres, a 1024² map, 640×480 pixels.",
+            seconds: [15, 5],
+            run: lookups::sat,
+        },
+    ],
 };
 
 /// Spec, name, width.

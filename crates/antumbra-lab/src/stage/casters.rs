@@ -17,10 +17,9 @@ pub enum Casters {
     Triangles {
         /// All triangles of the stage.
         mesh: CasterMesh,
-        /// For masked materials; `None` if the scene has none.
-        cutout: Option<wgpu::RenderPipeline>,
-        /// Normals, texture coordinates and colours of the vertices.
-        attributes: wgpu::BindGroup,
+        /// For masked materials: the pipeline, and normals, texture coordinates and colours of the
+        /// vertices. `None` if the scene has none.
+        cutout: Option<(wgpu::RenderPipeline, wgpu::BindGroup)>,
     },
 }
 
@@ -35,6 +34,10 @@ impl Casters {
         }
         let triangles = 0..stage.groups.iter().map(|group| group.1.end / 3).max().unwrap_or(0);
         let mesh = CasterMesh::new(&gpu.device, &stage.positions, &stage.indices, triangles, Mat4::IDENTITY)?;
+        // Large scenes have more attributes than a binding holds, and most of them no cut-outs.
+        if !stage.groups.iter().any(|group| group.2) {
+            return Ok(Self::Triangles { mesh, cutout: None });
+        }
         let layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("attributes"),
             entries: &[wgpu::BindGroupLayoutEntry {
@@ -53,8 +56,7 @@ impl Casters {
             layout: &layout,
             entries: &[wgpu::BindGroupEntry { binding: 0, resource: stage.attributes.as_entire_binding() }],
         });
-        let masked = stage.groups.iter().any(|group| group.2);
-        let compile = || shadows.cutout_caster(&gpu.device, CUTOUT, &[&stage.materials.layout, &layout]);
-        Ok(Self::Triangles { mesh, cutout: masked.then(compile).flatten(), attributes })
+        let pipeline = shadows.cutout_caster(&gpu.device, CUTOUT, &[&stage.materials.layout, &layout]);
+        Ok(Self::Triangles { mesh, cutout: pipeline.map(|pipeline| (pipeline, attributes)) })
     }
 }

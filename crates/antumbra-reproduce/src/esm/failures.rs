@@ -1,9 +1,13 @@
-//! Table 3: failing pixels.
+//! Table 3, figures 5, 6 and 10: failing pixels.
 
 use crate::{
     bench::Bench,
-    page::{Cell, Page, Table, Unit},
-    verdict::{Verdict, at_least, at_most, more},
+    gallery,
+    numbers::steps,
+    page::{Cell, Page, Table, Tile, Unit},
+    raster::difference,
+    study::{Look, Study, Truth},
+    verdict::{Verdict, at_least, at_most, less, more},
 };
 use anyhow::{Context, Result};
 
@@ -13,17 +17,146 @@ const PAPER: [(u32, f64, f64); 4] =
 /// Name of the class in both classifiers.
 const FAILED: &str = "assumption violated";
 
-pub(super) fn table_3(bench: &Bench<'_>) -> Result<Page> {
+/// The backyard with both classifiers and all kernels: Z-Max, then Threshold.
+fn study(bench: &Bench<'_>) -> Result<Study> {
     let zmax = PAPER.map(|(kernel, ..)| format!("esm.classifier=zmax,kernel={kernel}"));
     let threshold = PAPER.map(|(kernel, ..)| format!("esm.kernel={kernel}"));
     let specs: Vec<&str> = zmax.iter().chain(&threshold).map(String::as_str).collect();
-    let study = bench.study(bench.shot("backyard", [800, 800]), bench.map(2048), &specs)?;
-    let share = |spec: &String| -> Result<f64> {
+    bench.study(bench.shot("backyard", [800, 800]), bench.map(2048), &specs)
+}
+
+fn share(look: &Look) -> Result<f64> {
+    look.share(FAILED).with_context(|| format!("{} has no pixels called '{FAILED}'", look.spec))
+}
+
+/// Shares of Z-Max and of Threshold.
+fn shares(study: &Study) -> Result<[Vec<f64>; 2]> {
+    let (zmax, threshold) = study.looks.split_at(PAPER.len());
+    let all = |looks: &[Look]| looks.iter().map(share).collect::<Result<Vec<f64>>>();
+    Ok([all(zmax)?, all(threshold)?])
+}
+
+pub(super) fn figure_10(bench: &Bench<'_>) -> Result<Page> {
+    let study = study(bench)?;
+    let mut tiles = Vec::new();
+    for (look, (kernel, ..)) in study.looks.iter().zip(PAPER.iter().chain(&PAPER)) {
+        let tinted = look.tinted.as_ref().with_context(|| look.spec.clone())?;
+        tiles.push(Tile::new(format!("{kernel}×{kernel}: {:.1} %", 100.0 * share(look)?), tinted)?);
+    }
+    let [zmax, threshold] = shares(&study)?;
+    let mut page = Page::default();
+    page.verdict(grows(&zmax, &threshold));
+    page.pictures("Visibility, failing pixels in red: Z-Max above, Threshold below.", 4, tiles);
+    Ok(page)
+}
+
+const FIGURE_5: [(&str, &str); 3] = [
+    ("esm.kernel=5,classifier=zmax", "Z-Max"),
+    ("esm.kernel=5", "Threshold"),
+    ("esm.kernel=5,classifier=none", "no classifier"),
+];
+
+pub(super) fn figure_5(bench: &Bench<'_>) -> Result<Page> {
+    let study = bench.study(bench.shot("backyard", [800, 600]), bench.map(2048), &FIGURE_5.map(|f| f.0))?;
+    let ideal = &bench.truths(&study, &[Truth::LightSpace(5)])?[0];
+    let mut table =
+        Table::new("Pixels found, and error to the ideal of 5×5.", &["classifier", "found", "RMSE"]);
+    let mut pictures = Vec::new();
+    let mut tinted = Vec::new();
+    let mut errors = Vec::new();
+    for (spec, name) in FIGURE_5 {
         let look = study.look(spec)?;
-        look.share(FAILED).with_context(|| format!("{spec} has no class '{FAILED}': {:?}", look.classes))
-    };
-    let zmax = zmax.iter().map(share).collect::<Result<Vec<f64>>>()?;
-    let threshold = threshold.iter().map(share).collect::<Result<Vec<f64>>>()?;
+        let rmse = bench.score(&study, spec, ideal, None)?.rmse;
+        table.row(name, vec![Cell::ours(look.share(FAILED), Unit::Share), Cell::ours(rmse, Unit::Number)]);
+        errors.push(rmse);
+        pictures.push((name, &look.picture));
+        if let Some(red) = look.tinted.as_ref().filter(|_| look.share(FAILED).is_some()) {
+            tinted.push(Tile::new(format!("{name}: pixels found"), red)?);
+        }
+    }
+    pictures.push(("rays, filtered 5×5 in light space", &ideal.picture));
+    let mut page = Page::default();
+    page.verdict(helps([errors[0], errors[1]], errors[2]));
+    page.pictures("As in the figure: visibility, pixels found in red.", 2, tinted);
+    let window = gallery::window(&difference(pictures[2].1, &ideal.picture), pictures[2].1, 8);
+    let captions = ["What becomes of them.", "Enlarged: where doing nothing looks most wrong."];
+    gallery::rows(&mut page, captions, 4, &pictures, window)?;
+    page.table(table);
+    Ok(page)
+}
+
+fn helps(found: [f64; 2], none: f64) -> Verdict {
+    Verdict::new(
+        "Filtering the pixels found removes artifacts, with either classifier",
+        [
+            less("RMSE with Z-Max", found[0], "that without any classifier", none),
+            less("RMSE with Threshold", found[1], "that without any classifier", none),
+        ],
+    )
+}
+
+const OFFSETS: [f32; 5] = [0.1, 0.25, 0.5, 1.0, 2.0];
+const EPSILONS: [f32; 5] = [0.0, 0.01, 0.1, 0.5, 2.0];
+
+pub(super) fn figure_6(bench: &Bench<'_>) -> Result<Page> {
+    let zmax = OFFSETS.map(|o| format!("esm.kernel=5,classifier=zmax,offset={o}"));
+    let threshold = EPSILONS.map(|e| format!("esm.kernel=5,epsilon={e}"));
+    let specs: Vec<&str> = zmax.iter().chain(&threshold).map(String::as_str).collect();
+    let study = bench.study(bench.shot("backyard", [480, 360]), bench.map(1024), &specs)?;
+    let mut page = Page::default();
+    let mut table = Table::new("Pixels found.", &["setting", "share"]);
+    let mut shares = Vec::new();
+    let mut tiles = Vec::new();
+    for look in &study.looks {
+        let share = share(look)?;
+        table.row(look.spec.as_str(), vec![Cell::ours(share, Unit::Share)]);
+        shares.push(share);
+        let tinted = look.tinted.as_ref().with_context(|| look.spec.clone())?;
+        let setting = look.spec.rsplit(',').next().unwrap_or_default();
+        tiles.push(Tile::new(format!("{setting}: {:.1} %", 100.0 * share), tinted)?);
+    }
+    let (offsets, epsilons) = shares.split_at(OFFSETS.len());
+    page.verdict(underestimated(offsets));
+    page.verdict(threshold_acts(epsilons));
+    page.pictures(
+        "(a) Z-Max above, its offset growing; (b) Threshold below, its ε growing.",
+        OFFSETS.len(),
+        tiles,
+    );
+    page.table(table);
+    Ok(page)
+}
+
+/// The least quotient of a share and the next.
+fn falling(shares: &[f64]) -> Option<f64> {
+    steps(shares.windows(2).map(|pair| [pair[1].max(1e-9), pair[0].max(1e-9)]))
+}
+
+fn underestimated(offsets: &[f64]) -> Verdict {
+    let [least, most] = ends(offsets);
+    Verdict::new(
+        "An offset that is too small flags surfaces that cannot fail",
+        [
+            at_least("least fall of the share from offset to offset", falling(offsets), "none", 1.0),
+            more(
+                "share with the smallest offset",
+                least,
+                "1.5 times that with the largest",
+                most.map(|m| 1.5 * m),
+            ),
+        ],
+    )
+}
+
+fn threshold_acts(epsilons: &[f64]) -> Verdict {
+    Verdict::new(
+        "The higher the threshold, the fewer pixels are found",
+        [at_least("least fall of the share from ε to ε", falling(epsilons), "none", 1.0)],
+    )
+}
+
+pub(super) fn table_3(bench: &Bench<'_>) -> Result<Page> {
+    let [zmax, threshold] = shares(&study(bench)?)?;
     let mut table = Table::new(
         "Pixels whose kernel reaches casters behind the receiver.",
         &["failure", "no convolution", "3×3", "5×5", "7×7"],
@@ -90,5 +223,12 @@ mod tests {
         assert_eq!(few(&[0.1, 0.2], &threshold).outcome(), Differs);
         assert_eq!(grows(&[0.1, 0.1], &threshold).outcome(), Differs);
         assert_eq!(conservative(&threshold, &zmax).outcome(), Differs);
+        assert_eq!(helps([0.1, 0.2], 0.3).outcome(), Holds);
+        assert_eq!(helps([0.1, 0.4], 0.3).outcome(), Differs);
+        assert_eq!(underestimated(&[0.5, 0.3, 0.1]).outcome(), Holds);
+        assert_eq!(underestimated(&[0.1, 0.3, 0.01]).outcome(), Differs);
+        assert_eq!(underestimated(&[0.12, 0.11, 0.1]).outcome(), Differs);
+        assert_eq!(threshold_acts(&[0.5, 0.3, 0.3]).outcome(), Holds);
+        assert_eq!(threshold_acts(&[0.5, 0.3, 0.4]).outcome(), Differs);
     }
 }

@@ -1,0 +1,101 @@
+//! Figure 7: how many samples PCF needs.
+
+use crate::{
+    bench::Bench,
+    gallery,
+    page::{Cell, Page, Table, Unit},
+    raster::difference,
+    study::Truth,
+    verdict::{Verdict, at_least, more},
+};
+use anyhow::Result;
+
+const BUDGETS: [u32; 7] = [1, 4, 9, 16, 36, 64, 144];
+const ESM: [(&str, &str); 2] = [("esm.kernel=1", "ESM, trilinear"), ("esm.kernel=5", "ESM, 5×5 Gauss")];
+
+pub(super) fn figure_7(bench: &Bench<'_>) -> Result<Page> {
+    let pcf = BUDGETS.map(|n| format!("footprint.budget={n}"));
+    let specs: Vec<&str> = pcf.iter().map(String::as_str).chain(ESM.map(|e| e.0)).collect();
+    let (shot, map) = (bench.shot("fence", [640, 480]).from(2.0), bench.map(2048));
+    let study = bench.study(shot, map, &specs)?;
+    let truth = &bench.truths(&study, &[Truth::ScreenSpace(8)])?[0];
+    let entrants: Vec<(u32, &str)> = specs.iter().map(|s| (map, *s)).collect();
+    let times = bench.race(shot, &entrants, bench.rounds(5))?;
+    let names: Vec<String> =
+        BUDGETS.iter().map(|n| format!("PCF, {n} samples")).chain(ESM.map(|e| e.1.to_string())).collect();
+    let mut table = Table::new(
+        "Error to 64 rays per pixel, and frame time over that of trilinear ESM.",
+        &["filter", "RMSE", "frame time"],
+    );
+    let esm = BUDGETS.len();
+    let mut errors = Vec::new();
+    let mut ratios = Vec::new();
+    for ((name, spec), time) in names.iter().zip(&specs).zip(&times) {
+        errors.push(bench.score(&study, spec, truth, None)?.rmse);
+        ratios.push(time.frame.median_ms / times[esm].frame.median_ms);
+        let cells = [(errors[errors.len() - 1], Unit::Number), (ratios[ratios.len() - 1], Unit::Times)];
+        table.row(name.as_str(), cells.map(|(v, unit)| Cell::ours(v, unit)).into());
+    }
+    let (pcf_errors, pcf_ratios) = (&errors[..esm], &ratios[..esm]);
+    let plain = enough(pcf_errors, errors[esm]);
+    let mut page = Page::default();
+    page.verdict(many("trilinear ESM", plain.map(|i| BUDGETS[i]), 36));
+    let blurred = enough(pcf_errors, errors[esm + 1]);
+    page.verdict(many("ESM with a 5×5 Gauss", blurred.map(|i| BUDGETS[i]), 64));
+    page.verdict(slower(pcf_ratios[plain.unwrap_or(esm - 1)]));
+    let shown: Vec<usize> = [0, 3, 4, 5, esm, esm + 1].into();
+    let mut pictures = Vec::new();
+    for i in shown {
+        pictures.push((names[i].as_str(), &study.look(specs[i])?.picture));
+    }
+    pictures.push(("64 rays per pixel", &truth.picture));
+    let window = gallery::window(&difference(pictures[0].1, &truth.picture), pictures[0].1, 8);
+    let captions = ["As in the figure, and what rays say.", "Enlarged: where one sample looks most wrong."];
+    gallery::rows(&mut page, captions, 4, &pictures, window)?;
+    page.table(table);
+    Ok(page)
+}
+
+/// The first whose error is not larger.
+fn enough(errors: &[f64], limit: f64) -> Option<usize> {
+    errors.iter().position(|e| *e <= limit)
+}
+
+/// Fewest samples that suffice, `None` if none of the tried numbers does.
+fn many(esm: &str, needed: Option<u32>, paper: u32) -> Verdict {
+    let (what, samples) = match needed {
+        Some(n) => ("samples whose error is not larger than the ESM's".to_string(), n),
+        None => {
+            ("samples that do not suffice yet, the most that were tried".to_string(), BUDGETS[BUDGETS.len() - 1])
+        }
+    };
+    Verdict::new(
+        format!("PCF needs {paper} samples or more to match {esm}"),
+        [at_least(what, f64::from(samples), "the paper's", f64::from(paper))],
+    )
+}
+
+/// Frame time of the PCF that is as good (or the closest to it) over that of the ESM.
+fn slower(ratio: f64) -> Verdict {
+    Verdict::new(
+        "At equal quality ESM is faster",
+        [more("frame time of that PCF over that of the ESM", ratio, "1", 1.0)],
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::verdict::Outcome::{Differs, Holds};
+
+    #[test]
+    fn verdicts_follow_their_numbers() {
+        assert_eq!(enough(&[0.3, 0.2, 0.1], 0.2), Some(1));
+        assert_eq!(enough(&[0.3, 0.2, 0.1], 0.05), None);
+        assert_eq!(many("ESM", Some(36), 36).outcome(), Holds);
+        assert_eq!(many("ESM", Some(16), 36).outcome(), Differs);
+        assert_eq!(many("ESM", None, 36).outcome(), Holds);
+        assert_eq!(slower(2.0).outcome(), Holds);
+        assert_eq!(slower(0.9).outcome(), Differs);
+    }
+}

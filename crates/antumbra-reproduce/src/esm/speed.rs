@@ -1,0 +1,155 @@
+//! Tables 1 and 2: frame times.
+
+use crate::{
+    bench::Bench,
+    numbers::rank_correlation,
+    page::{Cell, Page, Table, Unit},
+    verdict::{Verdict, at_least, at_most, more},
+};
+use anyhow::Result;
+
+/// Kernel, map, frames per second of Threshold, Z-Max, VSM, CSM.
+const TABLE_1: [(u32, u32, [f64; 4]); 9] = [
+    (1, 512, [145.0, 132.0, 152.0, 83.0]),
+    (1, 1024, [140.0, 123.0, 140.0, 68.0]),
+    (1, 2048, [119.0, 101.0, 106.0, 40.0]),
+    (3, 512, [141.0, 127.0, 149.0, 75.0]),
+    (3, 1024, [132.0, 113.0, 131.0, 56.0]),
+    (3, 2048, [102.0, 78.0, 87.0, 27.0]),
+    (7, 512, [138.0, 119.0, 146.0, 71.0]),
+    (7, 1024, [124.0, 100.0, 125.0, 46.0]),
+    (7, 2048, [86.0, 61.0, 78.0, 19.0]),
+];
+const NAMES: [&str; 4] = ["ESM, Threshold", "ESM, Z-Max", "VSM", "CSM"];
+
+fn specs(kernel: u32) -> [String; 4] {
+    ["esm.kernel=", "esm.classifier=zmax,kernel=", "vsm.kernel=", "csm.kernel="]
+        .map(|s| format!("{s}{kernel}"))
+}
+
+fn convolution(kernel: u32) -> String {
+    if kernel == 1 { "none".into() } else { format!("{kernel}×{kernel}") }
+}
+
+pub(super) fn table_1(bench: &Bench<'_>) -> Result<Page> {
+    let cells: Vec<(u32, [String; 4])> = TABLE_1.map(|(k, map, _)| (bench.map(map), specs(k))).into();
+    let entrants: Vec<(u32, &str)> =
+        cells.iter().flat_map(|(map, specs)| specs.iter().map(|s| (*map, s.as_str()))).collect();
+    let times = bench.race(bench.shot("backyard", [800, 600]), &entrants, bench.rounds(3))?;
+    let times: Vec<f64> = times.iter().map(|t| t.frame.median_ms).collect();
+    let ours: Vec<[f64; 4]> = times.chunks_exact(4).map(|t| [0, 1, 2, 3].map(|i| t[i] / t[0])).collect();
+    let paper = TABLE_1.map(|(.., fps)| fps.map(|f| fps[0] / f));
+    let mut table = Table::new(
+        "Frame time over that of ESM with Threshold, same map and kernel.",
+        &["convolution, map", NAMES[1], NAMES[2], NAMES[3], "ESM, Threshold: frame"],
+    );
+    for (((kernel, map, _), (ours, paper)), time) in
+        TABLE_1.iter().zip(ours.iter().zip(paper)).zip(times.chunks_exact(4))
+    {
+        let mut cells: Vec<Cell> = (1..4).map(|i| Cell::ours(ours[i], Unit::Times).paper(paper[i])).collect();
+        cells.push(Cell::ours(time[0], Unit::Milliseconds));
+        table.row(format!("{}, {map}²", convolution(*kernel)), cells);
+    }
+    let mut page = Page::default();
+    page.table(table);
+    page.verdict(faster_than_csm(&ours));
+    page.verdict(threshold_is_faster(ours.iter().map(|r| r[1])));
+    let last = |rows: &[[f64; 4]]| rows.iter().flat_map(|r| [r[1], r[2], r[3]]).collect::<Vec<f64>>();
+    page.verdict(same_order(&last(&ours), &last(&paper)));
+    Ok(page)
+}
+
+fn faster_than_csm(ours: &[[f64; 4]]) -> Verdict {
+    let least = ours.iter().map(|r| r[3]).reduce(f64::min);
+    Verdict::new(
+        "ESM is significantly faster than CSM",
+        [at_least("smallest ratio of CSM's frame time to ESM's", least, "1.5", 1.5)],
+    )
+}
+
+fn threshold_is_faster(ratios: impl Iterator<Item = f64>) -> Verdict {
+    Verdict::new(
+        "Threshold is faster than Z-Max, for every map and kernel",
+        [more("smallest ratio of Z-Max to Threshold", ratios.reduce(f64::min), "1", 1.0)],
+    )
+}
+
+fn same_order(ours: &[f64], paper: &[f64]) -> Verdict {
+    Verdict::new(
+        "The cells of the table come in the paper's order",
+        [at_least(
+            "rank correlation of our ratios with the paper's",
+            rank_correlation(ours, paper),
+            "0.8",
+            0.8,
+        )],
+    )
+}
+
+/// Kernel, frames per second of Z-Max and of Threshold for 128² to 1024².
+const TABLE_2: [(u32, [f64; 4], [f64; 4]); 3] = [
+    (1, [410.0, 393.0, 374.0, 347.0], [569.0, 556.0, 527.0, 438.0]),
+    (3, [369.0, 357.0, 345.0, 273.0], [547.0, 536.0, 495.0, 374.0]),
+    (5, [358.0, 351.0, 338.0, 237.0], [544.0, 527.0, 474.0, 342.0]),
+];
+const SIZES: [u32; 4] = [128, 256, 512, 1024];
+
+pub(super) fn table_2(bench: &Bench<'_>) -> Result<Page> {
+    let pairs: Vec<(u32, [String; 2])> = TABLE_2
+        .iter()
+        .flat_map(|(kernel, ..)| SIZES.map(|size| (size, *kernel)))
+        .map(|(size, kernel)| {
+            let [threshold, zmax, ..] = specs(kernel);
+            (bench.map(size), [zmax, threshold])
+        })
+        .collect();
+    let entrants: Vec<(u32, &str)> =
+        pairs.iter().flat_map(|(map, pair)| pair.iter().map(|s| (*map, s.as_str()))).collect();
+    let times = bench.race(bench.shot("spheres", [800, 800]), &entrants, bench.rounds(5))?;
+    let ratios: Vec<f64> =
+        times.chunks_exact(2).map(|t| t[0].frame.median_ms / t[1].frame.median_ms).collect();
+    let mut table = Table::new(
+        "Frame time of Z-Max over that of Threshold.",
+        &["convolution", "128²", "256²", "512²", "1024²"],
+    );
+    for ((kernel, zmax, threshold), ours) in TABLE_2.iter().zip(ratios.chunks_exact(4)) {
+        let cells = (0..4).map(|i| Cell::ours(ours[i], Unit::Times).paper(threshold[i] / zmax[i])).collect();
+        table.row(convolution(*kernel), cells);
+    }
+    let mut page = Page::default();
+    page.table(table);
+    page.verdict(threshold_is_faster(ratios.iter().copied()));
+    page.verdict(cheap(&ratios));
+    Ok(page)
+}
+
+fn cheap(ratios: &[f64]) -> Verdict {
+    let most = ratios.iter().copied().reduce(f64::max);
+    Verdict::new(
+        "Z-Max takes at most a half more than Threshold",
+        [at_most("largest ratio of Z-Max to Threshold", most, "the paper's largest, 544/358", 544.0 / 358.0)],
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::verdict::Outcome::{Differs, Holds};
+
+    #[test]
+    fn verdicts_follow_their_numbers() {
+        let paper = TABLE_1.map(|(.., fps)| fps.map(|f| fps[0] / f));
+        assert_eq!(faster_than_csm(&paper).outcome(), Holds);
+        assert_eq!(faster_than_csm(&[[1.0, 1.0, 1.0, 1.1]]).outcome(), Differs);
+        assert_eq!(threshold_is_faster(paper.iter().map(|r| r[1])).outcome(), Holds);
+        assert_eq!(threshold_is_faster([1.2, 0.9].into_iter()).outcome(), Differs);
+        let flat = paper.concat();
+        assert_eq!(same_order(&flat, &flat).outcome(), Holds);
+        let backwards: Vec<f64> = flat.iter().map(|v| -v).collect();
+        assert_eq!(same_order(&backwards, &flat).outcome(), Differs);
+        let paper: Vec<f64> =
+            TABLE_2.iter().flat_map(|(_, z, t)| [0, 1, 2, 3].map(|i| t[i] / z[i])).collect();
+        assert_eq!(cheap(&paper).outcome(), Holds);
+        assert_eq!(cheap(&[1.1, 1.7]).outcome(), Differs);
+    }
+}

@@ -1,0 +1,202 @@
+//! What lookups give and cost: bicubic, layered variance, summed-area tables.
+
+use crate::{
+    bench::Bench,
+    gallery,
+    page::{Block, Cell, Page, Table, Unit},
+    raster::difference,
+    study::Truth,
+    verdict::{Verdict, at_least, at_most, less},
+};
+use antumbra::technique::bicubic::reference::spline;
+use antumbra_lab::{
+    chart::{Curve, Panel},
+    results::TimeResult,
+    timing::pass_ms,
+};
+use anyhow::Result;
+
+const SHOWN: [(&str, &str); 4] = [
+    ("hard", "standard map"),
+    ("pcf.kernel=3,weights=box,taps=nearest", "PCF 3×3"),
+    ("pcf.kernel=1", "one bilinear lookup"),
+    ("bicubic", "bicubic, four bilinear lookups"),
+];
+/// Texels to each side of the edge.
+const REACH: i16 = 3;
+
+pub(super) fn bicubic(bench: &Bench<'_>) -> Result<Page> {
+    // Not the texels' borders, where nearest lookups could go either way.
+    let positions: Vec<f32> = (-40 * REACH..40 * REACH).map(|i| (f32::from(i) + 0.5) / 40.0).collect();
+    let mut curves = Vec::new();
+    let mut largest = None;
+    for (spec, name) in SHOWN {
+        let answers = bench.edge(spec, &positions)?;
+        let points: Vec<[f64; 2]> =
+            positions.iter().zip(&answers).map(|(x, v)| [f64::from(*x), f64::from(*v)]).collect();
+        if spec == "bicubic" {
+            largest = points.iter().map(|[x, v]| (v - convolution(*x)).abs()).reduce(f64::max);
+        }
+        curves.push(Curve { name: name.into(), points });
+    }
+    let exact = positions.iter().map(|x| [f64::from(*x), convolution(f64::from(*x))]).collect();
+    curves.push(Curve { name: "exact convolution with the cubic B-spline".into(), points: exact });
+    let reach = f64::from(REACH);
+    let panel = Panel {
+        curves,
+        x: [-reach, reach],
+        y: [-0.05, 1.05],
+        x_label: "texels from the caster's edge".into(),
+        y_label: "visibility, 0 in shadow, 1 lit".into(),
+    };
+    let mut page = Page::default();
+    page.verdict(exactly(largest));
+    page.blocks.push(Block::Plot(vec![panel], "A caster covers the texels on the left.".into()));
+    Ok(page)
+}
+
+/// Texels on the right of 0 are lit: the sum of their B-splines at `x`.
+fn convolution(x: f64) -> f64 {
+    // The spline reaches two texels.
+    (0..2 * i32::from(REACH) + 2).map(|texel| spline(x - f64::from(texel) - 0.5)).sum()
+}
+
+fn exactly(largest: Option<f64>) -> Verdict {
+    Verdict::new(
+        "Four bilinear lookups give the exact bicubic convolution",
+        [at_most(
+            "largest difference in visibility",
+            largest,
+            "a 256th, what filtering hardware resolves",
+            1.0 / 256.0,
+        )],
+    )
+}
+
+const LAYERS: [(&str, &str); 4] = [
+    ("vsm.kernel=5", "VSM"),
+    ("lvsm.kernel=5,intervals=2", "2 intervals"),
+    ("lvsm.kernel=5", "4 intervals"),
+    ("lvsm.kernel=5,intervals=8", "8 intervals"),
+];
+
+pub(super) fn vsm_layers(bench: &Bench<'_>) -> Result<Page> {
+    let study = bench.study(bench.shot("layers", [640, 480]), bench.map(1024), &LAYERS.map(|l| l.0))?;
+    let ideal = &bench.truths(&study, &[Truth::LightSpace(5)])?[0];
+    let mut table = Table::new(
+        "Leak: mean visibility deep in shadow. Memory with mip levels.",
+        &["technique", "leak", "RMSE to the ideal of 5×5", "memory"],
+    );
+    let (mut leaks, mut pictures) = (Vec::new(), Vec::new());
+    for (spec, name) in LAYERS {
+        let score = bench.score(&study, spec, ideal, None)?;
+        let look = study.look(spec)?;
+        let bytes = look.memory.kept_bytes as f64;
+        let cells = [(score.leak, Unit::Share), (Some(score.rmse), Unit::Number), (Some(bytes), Unit::Bytes)];
+        table.row(name, cells.map(|(v, unit)| Cell::ours(v, unit)).into());
+        leaks.push(score.leak);
+        pictures.push((name, &look.picture));
+    }
+    pictures.push(("rays, filtered 5×5 in light space", &ideal.picture));
+    let mut page = Page::default();
+    page.verdict(alleviated(leaks[0], leaks[2], leaks[3]));
+    let window = gallery::window(&difference(pictures[0].1, &ideal.picture), pictures[0].1, 4);
+    let captions = ["The scene.", "Enlarged: where the VSM looks most wrong."];
+    gallery::rows(&mut page, captions, 5, &pictures, window)?;
+    page.table(table);
+    Ok(page)
+}
+
+fn alleviated(vsm: Option<f64>, four: Option<f64>, eight: Option<f64>) -> Verdict {
+    Verdict::new(
+        "Layers alleviate the light bleeding of VSM",
+        [
+            less("leak with 4 intervals", four, "that of the VSM", vsm),
+            less("leak with 8 intervals", eight, "half of that of the VSM", vsm.map(|v| 0.5 * v)),
+        ],
+    )
+}
+
+const BOXES: [u32; 4] = [3, 7, 15, 63];
+const KERNELS: [u32; 4] = [2, 4, 8, 16];
+
+pub(super) fn sat(bench: &Bench<'_>) -> Result<Page> {
+    let summed = BOXES.map(|k| format!("vsm.sampling=summed,kernel={k}"));
+    let pcf = KERNELS.map(|k| format!("pcf.kernel={k},weights=box,taps=nearest"));
+    let map = bench.map(1024);
+    let entrants: Vec<(u32, &str)> = std::iter::once("none")
+        .chain(summed.iter().chain(&pcf).map(String::as_str))
+        .map(|s| (map, s))
+        .collect();
+    let times = bench.race(bench.shot("spheres", [640, 480]), &entrants, bench.rounds(9))?;
+    let lookup = |time: &TimeResult| pass_ms(time, "lookup").unwrap_or(time.frame.median_ms);
+    let (none, times) = times.split_at(1);
+    let own: Vec<f64> = times.iter().map(|t| lookup(t) - lookup(&none[0])).collect();
+    let (table_times, pcf_times) = own.split_at(BOXES.len());
+    let mut table = Table::new(
+        "Time of the lookup pass, less that of a pass without any lookup.",
+        &["technique", "time", "over the smallest kernel"],
+    );
+    for (specs, times) in [(&summed, table_times), (&pcf, pcf_times)] {
+        for (spec, time) in specs.iter().zip(times) {
+            table.row(
+                spec.as_str(),
+                vec![Cell::ours(*time, Unit::Milliseconds), Cell::ours(time / times[0], Unit::Times)],
+            );
+        }
+    }
+    let mut page = Page::default();
+    page.table(table);
+    page.verdict(constant(table_times));
+    page.verdict(quadratic(pcf_times));
+    Ok(page)
+}
+
+/// Times for boxes of 3×3 to 63×63.
+fn constant(times: &[f64]) -> Verdict {
+    let growth = times.first().zip(times.last()).map(|(first, last)| last / first);
+    Verdict::new(
+        "With a summed-area table the cost of a lookup does not depend on the rectangle",
+        [at_most(
+            "lookup of 63×63 over that of 3×3, 441 times the area",
+            growth,
+            "1.25, what caches lose",
+            1.25,
+        )],
+    )
+}
+
+/// Times for kernels of 2×2 to 16×16.
+fn quadratic(times: &[f64]) -> Verdict {
+    let growth = times.first().zip(times.last()).map(|(first, last)| last / first);
+    Verdict::new(
+        "PCF grows with the area of its kernel",
+        [at_least("lookup of 16×16 over that of 2×2, 64 times the area", growth, "16", 16.0)],
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::verdict::Outcome::{Differs, Holds};
+
+    #[test]
+    fn verdicts_follow_their_numbers() {
+        assert_eq!(exactly(Some(1e-6)).outcome(), Holds);
+        assert_eq!(exactly(Some(0.01)).outcome(), Differs);
+        assert_eq!(alleviated(Some(0.2), Some(0.1), Some(0.05)).outcome(), Holds);
+        assert_eq!(alleviated(Some(0.2), Some(0.3), Some(0.05)).outcome(), Differs);
+        assert_eq!(alleviated(Some(0.2), Some(0.1), Some(0.15)).outcome(), Differs);
+        assert_eq!(constant(&[1.0, 1.0, 1.1]).outcome(), Holds);
+        assert_eq!(constant(&[1.0, 1.5, 2.0]).outcome(), Differs);
+        assert_eq!(quadratic(&[1.0, 4.0, 60.0]).outcome(), Holds);
+        assert_eq!(quadratic(&[1.0, 1.0, 2.0]).outcome(), Differs);
+    }
+
+    #[test]
+    fn the_convolution_of_an_edge_is_smooth_and_symmetric() {
+        assert!((convolution(0.0) - 0.5).abs() < 1e-12);
+        assert!(convolution(-2.6).abs() < 1e-12 && (convolution(2.6) - 1.0).abs() < 1e-12);
+        assert!((convolution(0.7) + convolution(-0.7) - 1.0).abs() < 1e-12);
+    }
+}
