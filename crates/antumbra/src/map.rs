@@ -300,7 +300,7 @@ impl ShadowMap {
             multiview_mask: None,
         });
         if let Some(triangles) = &self.triangles {
-            pass.set_pipeline(&triangles.pipeline);
+            pass.set_pipeline(triangles.pipeline(&self.views[view]));
             pass.set_bind_group(0, triangles.group(view, layer), &[]);
         }
         draw(&self.caster_views[view * self.jitter.len() + cast], &mut pass);
@@ -328,11 +328,11 @@ impl ShadowMap {
         self.triangles.as_ref().map(|t| t.cutout(device, self.technique.as_ref(), wgsl, layouts))
     }
 
-    /// The pipeline that is set when the closure of [`encode`](Self::encode) is called, to return to it.
-    /// `None` if casters are depth.
+    /// The pipeline that is set when the closure of [`encode`](Self::encode) is called for `view`, to
+    /// return to it. `None` if casters are depth.
     #[must_use]
-    pub fn triangle_caster(&self) -> Option<&wgpu::RenderPipeline> {
-        self.triangles.as_ref().map(|t| &t.pipeline)
+    pub fn triangle_caster(&self, view: &View) -> Option<&wgpu::RenderPipeline> {
+        self.triangles.as_ref().map(|t| t.pipeline(view))
     }
 
     fn encode_view_filter(

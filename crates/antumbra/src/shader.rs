@@ -258,15 +258,34 @@ pub(crate) fn file(stem: &str) -> &'static str {
 /// WGSL in front of the pass that draws triangles for [`Caster::Triangles`].
 const TRIANGLES: &str = include_str!("shader/triangles.wgsl.in");
 
-/// The pass that draws triangles. `cutout` is the caller's WGSL that leaves parts of them out.
-pub(crate) fn triangles(technique: &dyn Technique, device: &Capabilities, cutout: Option<&str>) -> String {
+/// The pass that draws triangles. `cutout` is the caller's WGSL that leaves parts of them out; `spot`
+/// whether the view is a spot's, `None` if it may be either.
+pub(crate) fn triangles(
+    technique: &dyn Technique,
+    device: &Capabilities,
+    cutout: Option<&str>,
+    spot: Option<bool>,
+) -> String {
     let mut shader = ShaderText::library(technique, device);
     shader.need("coverage", &[]);
     let text = shader.text();
     let alone = if cutout.is_some() { "true" } else { "false" };
-    let glue = TRIANGLES.lines().filter(|line| cutout.is_some() || !line.contains("// cut-outs"));
+    let left_out = |line: &&str| {
+        cutout.is_none() && line.contains("// cut-outs")
+            || device.clamps_depth() && line.contains("// unclamped")
+    };
+    let glue = TRIANGLES.lines().filter(|line| !left_out(line));
+    // Masked code costs on software drivers what it costs where it is needed.
+    let spot = match spot {
+        Some(spot) => spot.to_string(),
+        None => "(caster_view.perspective == 1u)".into(),
+    };
     let glue: String = glue.flat_map(|line| [line, "\n"]).collect();
-    format!("{}\n{text}{}", cutout.unwrap_or_default(), glue.replace("{alone}", alone))
+    format!(
+        "{}\n{text}{}",
+        cutout.unwrap_or_default(),
+        glue.replace("{alone}", alone).replace("{spot}", &spot)
+    )
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use super::Stage;
 use crate::gpu::Gpu;
-use antumbra::{CasterMesh, ShadowMap};
+use antumbra::{CasterMesh, ShadowMap, technique::Caster};
 use anyhow::Result;
 use glam::Mat4;
 
@@ -29,7 +29,7 @@ impl Casters {
     /// # Errors
     /// More geometry than one binding may hold.
     pub fn new(gpu: &Gpu, stage: &Stage, shadows: &ShadowMap) -> Result<Self> {
-        if shadows.triangle_caster().is_none() {
+        if shadows.technique().caster() == Caster::Depth {
             return Ok(Self::Depth);
         }
         let triangles = 0..stage.groups.iter().map(|group| group.1.end / 3).max().unwrap_or(0);

@@ -15,6 +15,10 @@ use wgpu::{BindGroup, BindGroupLayout, BufferBindingType, RenderPipeline, Textur
 /// Share of a spot's near distance in front of which casters are cut off.
 const LEAST_DISTANCE: f32 = 1.0 / 64.0;
 
+/// Most triangles in one draw. Software drivers keep the vertices of a draw, which should fit their
+/// caches, and treat all of them as clipped if one is.
+const DRAWN_TOGETHER: u32 = 2048;
+
 /// Rust side of `CasterView` in `triangles.wgsl.in`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
@@ -64,8 +68,8 @@ impl CasterMesh {
                 return Err(MeshError::Bytes { what, bytes: buffer.size(), max: most });
             }
         }
-        // Twelve vertices per triangle are counted in 32 bits.
-        let count = (indices.size() / 12).min(u64::from(u32::MAX / 12)) as u32;
+        // Six vertices per triangle are counted in 32 bits.
+        let count = (indices.size() / 12).min(u64::from(u32::MAX / 6)) as u32;
         if triangles.start > triangles.end || triangles.end > count {
             return Err(MeshError::Triangles { start: triangles.start, end: triangles.end, count });
         }
@@ -93,7 +97,7 @@ impl CasterMesh {
     }
 
     /// Draws it in the pass that [`ShadowMap::encode`](crate::ShadowMap::encode) hands out for `view`:
-    /// six vertices per triangle, twelve under a spot, whose triangles may have to be cut.
+    /// three vertices per triangle, six under a spot, whose triangles may have to be cut.
     pub fn draw(&self, view: &View, pass: &mut wgpu::RenderPass<'_>) {
         self.draw_part(view, pass, self.triangles.clone());
     }
@@ -101,11 +105,13 @@ impl CasterMesh {
     /// Draws some of its triangles, counted from the first index. Leaves out those that
     /// [`new`](Self::new) was not given.
     pub fn draw_part(&self, view: &View, pass: &mut wgpu::RenderPass<'_>, triangles: Range<u32>) {
-        let vertices = 6 * (1 + perspective(view));
+        let vertices = 3 * (1 + perspective(view));
         let (start, end) = (triangles.start.max(self.triangles.start), triangles.end.min(self.triangles.end));
         if start < end {
             pass.set_bind_group(1, &self.group, &[]);
-            pass.draw(vertices * start..vertices * end, 0..1);
+        }
+        for start in (start..end).step_by(DRAWN_TOGETHER as usize) {
+            pass.draw(vertices * start..vertices * end.min(start.saturating_add(DRAWN_TOGETHER)), 0..1);
         }
     }
 }
@@ -139,7 +145,8 @@ fn mesh_layout(device: &wgpu::Device) -> BindGroupLayout {
 /// Pipeline and views of the pass.
 #[derive(Debug)]
 pub(super) struct TriangleCaster {
-    pub(super) pipeline: RenderPipeline,
+    /// Under the sun, under a spot.
+    pipelines: [RenderPipeline; 2],
     coverages: &'static [Coverage],
     format: TextureFormat,
     size: Size,
@@ -182,12 +189,13 @@ impl TriangleCaster {
                 }],
             })
         };
-        let shader = shader::triangles(technique, &Capabilities::of(device), None);
-        let pipeline =
-            pipelines.caster(&shader, &[format], |device| compile(device, &shader, format, &layout, &[]));
+        let compiled = |spot| {
+            let shader = shader::triangles(technique, &Capabilities::of(device), None, Some(spot));
+            pipelines.caster(&shader, &[format], |device| compile(device, &shader, format, &layout, &[]))
+        };
         Self {
             groups: (0..slots).map(group).collect(),
-            pipeline,
+            pipelines: [compiled(false), compiled(true)],
             coverages,
             format,
             size,
@@ -204,9 +212,14 @@ impl TriangleCaster {
         wgsl: &str,
         user: &[&BindGroupLayout],
     ) -> RenderPipeline {
-        let shader = shader::triangles(technique, &Capabilities::of(device), Some(wgsl));
+        let shader = shader::triangles(technique, &Capabilities::of(device), Some(wgsl), None);
         let own = layout(device, "shadow caster view", &[BufferBindingType::Uniform]);
         compile(device, &shader, self.format, &own, user)
+    }
+
+    /// The pipeline for a view of this kind.
+    pub(super) fn pipeline(&self, view: &View) -> &RenderPipeline {
+        &self.pipelines[perspective(view) as usize]
     }
 
     /// Passes per view: layers of the map.
@@ -274,7 +287,10 @@ fn compile(
             compilation_options: Default::default(),
             buffers: &[],
         },
-        primitive: Default::default(),
+        primitive: wgpu::PrimitiveState {
+            unclipped_depth: Capabilities::of(device).clamps_depth(),
+            ..Default::default()
+        },
         depth_stencil: Some(wgpu::DepthStencilState {
             format: DEPTH_FORMAT,
             depth_write_enabled: Some(true),

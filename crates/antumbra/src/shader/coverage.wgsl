@@ -24,29 +24,34 @@ fn coverage_area(corners: mat3x3f) -> f32 {
     return b.x * c.y - b.y * c.x;
 }
 
-/// Corner 0 to 3 of a rectangle that holds the centres of all texels that a triangle covers. It lies
-/// along the triangle's longest edge, so that its area stays near twice the triangle's however thin
-/// and slanted that is; its margin is what a texel of that `reach` extends across [Hasselgren et al.
-/// 2005], and a hundredth for the rasteriser's grid.
-fn coverage_corner(corners: mat3x3f, corner: u32, reach: f32) -> vec2f {
-    var along = corners[1].xy - corners[0].xy;
-    for (var k = 1u; k < 3u; k += 1u) {
-        let edge = corners[(k + 1u) % 3u].xy - corners[k].xy;
-        along = select(along, edge, dot(edge, edge) > dot(along, along));
-    }
-    let length = length(along);
-    let u = select(along / length, vec2f(1.0, 0.0), length == 0.0);
+/// Corner k of a triangle that holds the centres of all texels that a triangle covers, both from corner
+/// 0: its edges moved outward by what a texel of that `reach` extends across them [Hasselgren et al. 2005],
+/// and a hundredth for the rasteriser's grid. Where that reaches far beyond an acute corner, the right
+/// triangle around a rectangle along the longest edge is smaller.
+fn coverage_corner(corners: mat3x3f, lines: mat3x3f, k: u32, reach: f32) -> vec2f {
+    let b = corners[1].xy;
+    let c = corners[2].xy;
+    let margin = reach + 0.01;
+    let p = select(select(lines[0], lines[2], k == 1u), lines[1], k == 0u);
+    let q = select(select(lines[1], lines[0], k == 1u), lines[2], k == 0u);
+    let o = vec2f(p.z, q.z) - margin * (abs(vec2f(p.x, q.x)) + abs(vec2f(p.y, q.y)));
+    let expanded = vec2f(o.y * p.y - o.x * q.y, o.x * q.x - o.y * p.x) / (p.x * q.y - p.y * q.x);
+    // Rectangle along the longest edge.
+    var along = select(b, c - b, dot(c - b, c - b) > dot(b, b));
+    along = select(along, c, dot(c, c) > dot(along, along));
+    let u = normalize(along);
     let v = vec2f(-u.y, u.x);
-    let origin = corners[0].xy;
-    let b = corners[1].xy - origin;
-    let c = corners[2].xy - origin;
-    let across = vec3f(0.0, dot(b, u), dot(c, u));
-    let down = vec3f(0.0, dot(b, v), dot(c, v));
-    let margin = (reach + 0.01) * (abs(u.x) + abs(u.y));
-    let low = vec2f(min(across.x, min(across.y, across.z)), min(down.x, min(down.y, down.z))) - margin;
-    let high = vec2f(max(across.x, max(across.y, across.z)), max(down.x, max(down.y, down.z))) + margin;
-    let at = vec2f(select(low.x, high.x, (corner & 1u) != 0u), select(low.y, high.y, (corner & 2u) != 0u));
-    return origin + at.x * u + at.y * v;
+    let across = vec2f(dot(b, u), dot(c, u));
+    let down = vec2f(dot(b, v), dot(c, v));
+    let edge = margin * (abs(u.x) + abs(u.y));
+    let low = min(vec2f(0.0), vec2f(min(across.x, across.y), min(down.x, down.y))) - edge;
+    let high = max(vec2f(0.0), vec2f(max(across.x, across.y), max(down.x, down.y))) + edge;
+    let at = low + select(vec2f(0.0), 2.0 * (high - low), vec2<bool>(k == 1u, k == 2u));
+    // Twice the areas; all edges moved by as much would keep the triangle's shape.
+    let area = abs(b.x * c.y - b.y * c.x);
+    let grown = area + edge * (length(b) + length(c) + length(c - b));
+    let sides = high - low;
+    return select(at.x * u + at.y * v, expanded, grown * grown < 4.0 * sides.x * sides.y * area);
 }
 
 /// Whether a texel is covered: its square, `reach` texels to each side of its centre (one half for all

@@ -204,8 +204,8 @@ fn every_composed_receiver_and_pass_validates() {
             if technique.caster() != Caster::Depth {
                 let cutout =
                     "fn caster_covers(triangle: u32, weights: vec3f) -> bool { return weights.x < 0.5; }";
-                for cutout in [None, Some(cutout)] {
-                    let text = triangles(technique.as_ref(), &device, cutout);
+                for (cutout, spot) in [(None, Some(false)), (None, Some(true)), (Some(cutout), None)] {
+                    let text = triangles(technique.as_ref(), &device, cutout, spot);
                     validate(&text).unwrap_or_else(|e| panic!("{spec}: {e}"));
                 }
             }
