@@ -62,6 +62,7 @@
 //! | `evsm` | [`Evsm`] | 16 bytes (4 to 8 as options), 1⅓ times with mips | 1 | bleeds next to nothing with 32 bits; bright where a caster nearly touches its receiver |
 //! | `msm` | [`Msm`] | 8 bytes, 1⅓ times with mips | 1 | bleeds only where three casters overlap, at half the memory of `evsm`; more arithmetic at lookup |
 //! | `lvsm` | [`Lvsm`] | 16·⌈L/2⌉ bytes, 1⅓ times with mips | ⌈L/2⌉ | bleeds only within an interval of depth; memory grows with the intervals |
+//! | `rgsm` | [`Rgsm`] | 16 bytes | 9, or n² | edges finer than texels where triangles are larger than those; elsewhere no better than `hard` |
 //! | `spsm` | [`Spsm`] | 16 bytes, 32 with 2 layers | 1 to 19, silhouettes up to 3 times that | edges finer than texels, hard; draws casters twice from storage buffers ([`CasterMesh`]), slow without a GPU |
 //!
 //! A technique is a value whose public fields are its settings; [`technique::parse`] reads them from
@@ -132,6 +133,6 @@ pub use shader::{CASTER_WGSL, ShaderText};
 pub use table::Table;
 pub use technique::{
     Technique, bicubic::Bicubic, csm::Csm, esm::Esm, evsm::Evsm, footprint::Footprint, hard::Hard,
-    lvsm::Lvsm, msm::Msm, packed::Packed, pcf::Pcf, poisson::Poisson, spsm::Spsm, stratified::Stratified,
-    vsm::Vsm,
+    lvsm::Lvsm, msm::Msm, packed::Packed, pcf::Pcf, poisson::Poisson, rgsm::Rgsm, spsm::Spsm,
+    stratified::Stratified, vsm::Vsm,
 };

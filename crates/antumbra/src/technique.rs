@@ -371,5 +371,6 @@ techniques! {
     evsm::Evsm,
     msm::Msm,
     lvsm::Lvsm,
+    rgsm::Rgsm,
     spsm::Spsm,
 }

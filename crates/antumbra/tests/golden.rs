@@ -311,9 +311,13 @@ fn esm_needs_no_bias(gpu: &Gpu) {
     assert!(hard > 0.2, "without bias a comparison shadows a tilted plane: {hard}");
 }
 
-/// Casters are a slanted triangle and a far smaller one beside it; the answer is known everywhere.
-fn spsm_resolves_edges_below_a_texel(gpu: &Gpu) {
-    let triangles = [[(0.2, 0.13), (0.83, 0.42), (0.31, 0.87)], [(0.81, 0.71), (0.86, 0.72), (0.82, 0.74)]];
+/// A slanted triangle and one of about a texel beside it.
+const SLANTED: [[(f32, f32); 3]; 2] =
+    [[(0.2, 0.13), (0.83, 0.42), (0.31, 0.87)], [(0.81, 0.71), (0.86, 0.72), (0.82, 0.74)]];
+
+/// How many of the picture's receivers behind such triangles a technique answers wrongly, from a map so
+/// small that many fall into each texel.
+fn wrong_behind(gpu: &Gpu, spec: &str, triangles: &[[(f32, f32); 3]]) -> usize {
     let corner = |(u, v): (f32, f32)| Vec3::new(2.0 * u - 1.0, 1.0 - 2.0 * v, 0.3);
     let corners: Vec<Vec3> = triangles.iter().flatten().map(|c| corner(*c)).collect();
     let receivers: Vec<Receiver> =
@@ -325,16 +329,33 @@ fn spsm_resolves_edges_below_a_texel(gpu: &Gpu) {
             side(a, b) >= 0.0 && side(b, c) >= 0.0 && side(c, a) >= 0.0
         })
     };
-    // A small map: many receivers per texel.
-    let wrong = |spec: &str| {
-        let found = behind(gpu, spec, Size::square(20), &corners, &receivers);
-        let differs = |(r, v): (&Receiver, f32)| (v < 0.5) != covered(r.uv);
-        receivers.iter().zip(found).filter(|pair| differs(*pair)).count()
-    };
+    let found = behind(gpu, spec, Size::square(20), &corners, &receivers);
+    let differs = |(r, v): (&Receiver, f32)| (v < 0.5) != covered(r.uv);
+    receivers.iter().zip(found).filter(|pair| differs(*pair)).count()
+}
+
+fn spsm_resolves_edges_below_a_texel(gpu: &Gpu) {
+    let wrong = |spec| wrong_behind(gpu, spec, &SLANTED);
     let (published, two) = (wrong("spsm.layers=1"), wrong("spsm"));
-    assert!(published <= 8 && two <= 8, "{published} and {two} of {} pixels", receivers.len());
+    assert!(published <= 8 && two <= 8, "{published} and {two} of {} pixels", receivers().len());
     let coarse = wrong("spsm.packing=map");
     assert!(coarse <= 80, "{coarse} with corners over the map");
+}
+
+/// At the tips of a large triangle no centre sees it.
+fn rgsm_resolves_edges_of_large_triangles(gpu: &Gpu) {
+    let wrong = |spec: &str, count| wrong_behind(gpu, &format!("rgsm.missed=lit,{spec}"), &SLANTED[..count]);
+    let [own, three, five] = [1, 3, 5].map(|n| wrong(&format!("neighbours={n}"), 1));
+    assert!(five <= three && three <= 30, "{three} with 3×3, {five} with 5×5");
+    assert!(own > 4 * three, "{own} with the own texel alone");
+    // One that lies between two rows of centres leaves nothing.
+    let between = [[(0.78, 0.73), (0.92, 0.73), (0.85, 0.77)]];
+    let lost = wrong_behind(gpu, "rgsm.missed=lit,neighbours=5", &between);
+    let kept = wrong_behind(gpu, "spsm", &between);
+    assert!(lost > 30 && kept < 8, "{lost}, and {kept} with conservative rasterisation");
+    // Where the receiver casts nothing, the texel's centre answers beside a triangle.
+    let centres = wrong_behind(gpu, "rgsm", &SLANTED[..1]);
+    assert!(centres > 4 * three, "{centres}");
 }
 
 fn main() {
@@ -353,6 +374,7 @@ fn main() {
         ("evsm", "bleeds less than vsm", evsm_bleeds_less_than_vsm),
         ("msm", "bleeds less than vsm", msm_bleeds_less_than_vsm),
         ("lvsm", "bleeds less than vsm", lvsm_bleeds_less_than_vsm),
+        ("rgsm", "edges of large triangles", rgsm_resolves_edges_of_large_triangles),
         ("spsm", "edges finer than texels", spsm_resolves_edges_below_a_texel),
     ];
     let path =

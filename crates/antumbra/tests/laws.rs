@@ -47,8 +47,10 @@ fn specs() -> Vec<String> {
         more("classifier", "storage=log32,classifier=zmax");
         more("slope_of", "slope_of=caster");
         more("sampling", "sampling=nearest,kernel=1");
-        more("packing", "packing=map,layers=1");
-        more("packing", "packing=texel,samples=2");
+        more("layers", "packing=map,layers=1");
+        more("samples", "packing=texel,samples=2");
+        more("neighbours", "packing=map,neighbours=5");
+        more("neighbours", "packing=texel,neighbours=1");
         more("moments", "moments=two");
         more("intervals", "intervals=7,overlap=0");
         for p in &technique.parameters() {
@@ -486,6 +488,16 @@ fn broken() -> Vec<(&'static str, Law, Broken)> {
             "other weights where the width is fixed",
             widths_in_the_world_are_texels_of_the_view,
             Broken { weights: 0.97, ..Broken::new("vsm") },
+        ),
+        (
+            "light between stored triangles",
+            is_dark_behind_a_blocker,
+            Broken::new("rgsm.missed=lit,neighbours=1"),
+        ),
+        (
+            "shadow on the surface itself",
+            shrinks_to_the_hard_shadow,
+            Broken::saying("rgsm", "slack.xy / size, abs(at)) < depth", "slack.xy / size, abs(at)) > depth"),
         ),
         ("a blur that brightens", filtering_keeps_the_mean, Broken { weights: 1.01, ..Broken::new("vsm") }),
         (

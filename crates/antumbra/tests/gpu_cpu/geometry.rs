@@ -2,14 +2,19 @@
 
 use super::{INPUTS, Row, compare, compare_from, row, rows, run};
 use crate::common::{Random, caster_mesh, view};
-use antumbra::{Fit, Light, Options, ShadowMap, Size, Spsm, View, technique::spsm};
+use antumbra::{
+    Fit, Light, Options, Rgsm, ShadowMap, Size, Spsm, Technique, View, technique::rgsm, technique::spsm,
+};
 use antumbra_testing::Gpu;
 use glam::{DVec2, Vec2, Vec3};
 
 /// A shadow map that nothing was drawn to, for its functions.
 fn functions(gpu: &Gpu, packing: spsm::Packing) -> ShadowMap {
-    let technique = Spsm { packing, ..Spsm::default() };
-    ShadowMap::new(&gpu.device, &technique, Size::square(1024)).unwrap()
+    functions_of(gpu, &Spsm { packing, ..Spsm::default() })
+}
+
+fn functions_of(gpu: &Gpu, technique: &dyn Technique) -> ShadowMap {
+    ShadowMap::new(&gpu.device, technique, Size::square(1024)).unwrap()
 }
 
 /// Three corners around the middle of a map of 1024² texels, at most four texels from it and no sliver;
@@ -145,6 +150,37 @@ pub(crate) fn spsm_intersects(gpu: &Gpu) {
     assert!(hits > 200, "{hits} of {} intersect", rows.len());
     assert_eq!(wrong(false), 0, "of {}", rows.len());
     assert!(wrong(true) > 200, "{}", wrong(true));
+}
+
+/// Likewise; of triangles that cover the centre, since others are not stored.
+pub(crate) fn rgsm_meets_stored_triangles(gpu: &Gpu) {
+    let covers_centre = |r: &Row| {
+        let r: [f64; INPUTS] = std::array::from_fn(|i| if i == 9 || i == 10 { 0.0 } else { f64::from(r[i]) });
+        distances(&r).iter().all(|d| *d < 0.0)
+    };
+    let rows: Vec<Row> = rows(27, triangle).into_iter().filter(covers_centre).collect();
+    let body = format!(
+        "{PACK}
+        put(0u, f32(rgsm_meets(words, centre, point, size)));
+        put(1u, f32(rgsm_before(words, point, take(11u), size)));"
+    );
+    let found = run::<2>(gpu, &functions_of(gpu, &Rgsm::default()), &body, &rows);
+    let wrong = |flip: bool| {
+        let differs = |(r, f): (&Row, &[f32; 2])| {
+            let r = r.map(f64::from);
+            let point = [512.5 + r[9], 512.5 + r[10]];
+            let depth = if flip { 1.0 - r[11] } else { r[11] };
+            let before = |more: f64| rgsm::reference::before(corners(&r), point, depth + more);
+            let found = (f[0] == 1.0).then_some(f[1] == 1.0);
+            let clear = distances(&r).iter().all(|d| d.abs() > 3e-3) && before(-0.02) == before(0.02);
+            clear && found != before(0.0)
+        };
+        rows.iter().zip(&found).filter(|pair| differs(*pair)).count()
+    };
+    let met = found.iter().filter(|f| f[0] == 1.0).count();
+    assert!(met > 200 && rows.len() > met + 50, "{met} of {} are met", rows.len());
+    assert_eq!(wrong(false), 0, "of {}", rows.len());
+    assert!(wrong(true) > 50, "{}", wrong(true));
 }
 
 pub(crate) fn spsm_finds_least_depths(gpu: &Gpu) {

@@ -173,6 +173,7 @@ fn main() {
     trials.add("triangles survive packing", geometry::triangles_survive_packing);
     trials.add("slopes are quantised as published", geometry::slopes_are_quantised);
     trials.add("spsm intersects (Algorithm 1)", geometry::spsm_intersects);
+    trials.add("rgsm meets stored triangles", geometry::rgsm_meets_stored_triangles);
     trials.add("spsm finds consistent least depths", geometry::spsm_finds_least_depths);
     trials.add("spsm's table of tangents", geometry::spsm_tangents);
     trials.add("every touched texel is drawn", geometry::every_touched_texel_is_drawn);
