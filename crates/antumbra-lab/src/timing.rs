@@ -68,7 +68,7 @@ impl Stopwatch {
             // Some software drivers stamp the end of a compute pass before it has run: the next pass
             // begins when it is done.
             let end = match stamps.get(2 * i + 2) {
-                Some(next) if *label == "sum" && i + 1 < self.labels.len() => *next,
+                Some(next) if matches!(*label, "sum" | "scan") && i + 1 < self.labels.len() => *next,
                 _ => pair[1],
             };
             let ms = end.saturating_sub(pair[0]) as f64 * period;

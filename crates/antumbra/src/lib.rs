@@ -64,6 +64,7 @@
 //! | `lvsm` | [`Lvsm`] | 16·⌈L/2⌉ bytes, 1⅓ times with mips | ⌈L/2⌉ | bleeds only within an interval of depth; memory grows with the intervals |
 //! | `rgsm` | [`Rgsm`] | 16 bytes | 9, or n² | edges finer than texels where triangles are larger than those; elsewhere no better than `hard` |
 //! | `spsm` | [`Spsm`] | 16 bytes, 32 with 2 layers | 1 to 19, silhouettes up to 3 times that | edges finer than texels, hard; draws casters twice from storage buffers ([`CasterMesh`]), slow without a GPU |
+//! | `exact` | [`Exact`] | 16 bytes and 4 per triangle in it, 48 per triangle of the scene | 2 and 4 per triangle in a list | what rays see, whatever the size of the map; memory for the triangles must be known beforehand |
 //!
 //! A technique is a value whose public fields are its settings; [`technique::parse`] reads them from
 //! text (`esm.c=60,kernel=7`) and [`technique::all`] lists them. All of them run through the same
@@ -132,7 +133,7 @@ pub use precision::Precision;
 pub use shader::{CASTER_WGSL, ShaderText};
 pub use table::Table;
 pub use technique::{
-    Technique, bicubic::Bicubic, csm::Csm, esm::Esm, evsm::Evsm, footprint::Footprint, hard::Hard,
-    lvsm::Lvsm, msm::Msm, packed::Packed, pcf::Pcf, poisson::Poisson, rgsm::Rgsm, spsm::Spsm,
+    Technique, bicubic::Bicubic, csm::Csm, esm::Esm, evsm::Evsm, exact::Exact, footprint::Footprint,
+    hard::Hard, lvsm::Lvsm, msm::Msm, packed::Packed, pcf::Pcf, poisson::Poisson, rgsm::Rgsm, spsm::Spsm,
     stratified::Stratified, vsm::Vsm,
 };

@@ -13,6 +13,7 @@ use wgpu::{RenderPass, TextureFormat};
 
 mod caster;
 mod check;
+mod lists;
 mod memory;
 mod pipelines;
 mod receiver;
@@ -21,6 +22,7 @@ mod uniforms;
 
 pub use caster::CasterMesh;
 use caster::TriangleCaster;
+use lists::{Lists, Room};
 pub use memory::{Lifetime, Memory, MemoryItem};
 pub use pipelines::Pipelines;
 use pipelines::Run;
@@ -126,6 +128,8 @@ pub struct ShadowMap {
     draws: Vec<Vec<Draw>>,
     /// For techniques whose casters are triangles.
     triangles: Option<TriangleCaster>,
+    /// For those that keep all of them.
+    lists: Option<Lists>,
     layout: wgpu::BindGroupLayout,
     bind_group: wgpu::BindGroup,
     views: Vec<View>,
@@ -187,6 +191,14 @@ impl ShadowMap {
             }
             _ => None,
         };
+        let lists = match technique.caster() {
+            Caster::Lists { per_texel, triangles } => {
+                let room = Room { size: options.size, views: options.views, per_texel, triangles };
+                check::lists(device, technique, room)?;
+                Some(Lists::new(device, technique, room, &pipelines))
+            }
+            _ => None,
+        };
         let compares = technique.bindings().contains(&Binding::Depth);
         let jitter = technique.jitter();
         let casting = (compares, jitter.len() as u32);
@@ -199,7 +211,8 @@ impl ShadowMap {
                 steps.iter().map(|step| draw(&pipelines, &textures, &uniforms, &maps, step, view)).collect()
             })
             .collect();
-        let (layout, bind_group) = receiver::group(device, technique, &capabilities, &textures, &uniforms);
+        let (layout, bind_group) =
+            receiver::group(device, technique, &capabilities, &textures, &uniforms, lists.as_ref());
         Ok(Self {
             technique: technique.boxed(),
             capabilities,
@@ -209,6 +222,7 @@ impl ShadowMap {
             uniforms,
             draws,
             triangles,
+            lists,
             layout,
             bind_group,
             views: Vec::with_capacity(options.views as usize),
@@ -236,6 +250,9 @@ impl ShadowMap {
         if let Some(triangles) = &self.triangles {
             triangles.write(queue, views);
         }
+        if let Some(lists) = &self.lists {
+            lists.write(queue, views);
+        }
         Ok(())
     }
 
@@ -243,8 +260,9 @@ impl ShadowMap {
     /// [`clip_from_world`](View::clip_from_world) places the casters, and a pass with a depth
     /// attachment of [`DEPTH_FORMAT`], cleared to 1, and no colour. A technique that draws them several
     /// times asks for each of [`caster_views`](Self::caster_views). If the technique's
-    /// [`caster`](Technique::caster) is [`Caster::Triangles`], the pass has its pipeline and group 0
-    /// set, and `draw`, which is called once per layer, calls [`CasterMesh::draw`].
+    /// [`caster`](Technique::caster) is [`Caster::Triangles`] or [`Caster::Lists`], the pass has its
+    /// pipeline and group 0 set, and `draw`, which is called once per layer or twice, calls
+    /// [`CasterMesh::draw`].
     pub fn encode(&self, encoder: &mut wgpu::CommandEncoder, draw: impl FnMut(&View, &mut RenderPass<'_>)) {
         self.encode_probed(encoder, &mut NoProbe, draw);
     }
@@ -258,6 +276,11 @@ impl ShadowMap {
     ) {
         let last = self.jitter.len() - 1;
         for view in 0..self.views.len() {
+            if let Some(lists) = &self.lists {
+                let (depth, seen) = (self.textures.caster_target(view), &self.views[view]);
+                lists.encode(encoder, (view, seen), depth, probe, &mut draw);
+                continue;
+            }
             for cast in 0..=last {
                 for layer in 0..self.triangles.as_ref().map_or(1, TriangleCaster::passes) {
                     self.encode_cast(encoder, (view, cast, layer), probe, &mut draw);
@@ -306,7 +329,7 @@ impl ShadowMap {
         draw(&self.caster_views[view * self.jitter.len() + cast], &mut pass);
     }
 
-    /// For casters with holes, where the technique's caster is [`Caster::Triangles`]: the pipeline to
+    /// For casters with holes, where the technique's caster is not [`Caster::Depth`]: the pipeline to
     /// set in the closure of [`encode`](Self::encode) before such meshes are drawn, with the caller's
     /// own bindings, described by `layouts`, from group 2 on.
     ///
@@ -325,14 +348,25 @@ impl ShadowMap {
         wgsl: &str,
         layouts: &[&wgpu::BindGroupLayout],
     ) -> Option<wgpu::RenderPipeline> {
-        self.triangles.as_ref().map(|t| t.cutout(device, self.technique.as_ref(), wgsl, layouts))
+        let technique = self.technique.as_ref();
+        let triangles = self.triangles.as_ref().map(|t| t.cutout(device, technique, wgsl, layouts));
+        triangles.or_else(|| self.lists.as_ref().map(|l| l.cutout(device, technique, wgsl, layouts)))
     }
 
     /// The pipeline that is set when the closure of [`encode`](Self::encode) is called for `view`, to
     /// return to it. `None` if casters are depth.
     #[must_use]
     pub fn triangle_caster(&self, view: &View) -> Option<&wgpu::RenderPipeline> {
-        self.triangles.as_ref().map(|t| t.pipeline(view))
+        let lists = self.lists.as_ref().map(|l| l.pipeline(view));
+        self.triangles.as_ref().map(|t| t.pipeline(view)).or(lists)
+    }
+
+    /// Two `u32` per view, usage `COPY_SRC`, for techniques whose caster is [`Caster::Lists`]: entries
+    /// that the casters of the last [`encode`](Self::encode) needed, of `width · height · per_texel`
+    /// that there is room for; and the number of their triangles if it is more than `triangles`, else 0.
+    #[must_use]
+    pub fn list_totals(&self) -> Option<&wgpu::Buffer> {
+        self.lists.as_ref().map(Lists::totals)
     }
 
     fn encode_view_filter(
@@ -418,6 +452,9 @@ impl ShadowMap {
     /// [`Probe::pass`] hears after `cast`.
     #[must_use]
     pub fn passes(&self) -> Vec<&'static str> {
+        if self.lists.is_some() {
+            return vec!["scan", "cast"];
+        }
         self.draws.first().map(|view| view.iter().map(|draw| draw.label).collect()).unwrap_or_default()
     }
 
@@ -426,6 +463,7 @@ impl ShadowMap {
     pub fn memory(&self) -> Memory {
         let mut memory = self.textures.memory(&self.uniforms);
         memory.items.extend(self.triangles.as_ref().map(TriangleCaster::memory));
+        memory.items.extend(self.lists.iter().flat_map(Lists::memory));
         memory
     }
 
@@ -440,6 +478,7 @@ impl ShadowMap {
             );
         }
         lines.extend(self.technique.fallbacks(&self.capabilities));
+        lines.extend(self.lists.as_ref().map(Lists::explain));
         let parts = self.technique.parts(&self.capabilities);
         for (i, map) in self.textures.maps().iter().enumerate() {
             let format = map.texture.format();

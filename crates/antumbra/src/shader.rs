@@ -7,7 +7,7 @@
 
 use crate::{
     capabilities::Capabilities,
-    technique::{Binding, Constant, DepthSpace, Family, Map, Technique},
+    technique::{Binding, Caster, Constant, DepthSpace, Family, List, Map, Technique},
 };
 use std::fmt::Write;
 
@@ -173,7 +173,8 @@ fn wgsl_type(binding: Binding, maps: &[Map]) -> &'static str {
         Binding::Depth => "texture_depth_2d_array",
         Binding::Compare(_) => "sampler_comparison",
         Binding::Map(i) if maps.get(i).is_some_and(Map::holds_integers) => "texture_2d_array<u32>",
-        Binding::Map(_) => "texture_2d_array<f32>",
+        Binding::Map(_) | Binding::List(List::Corners) => "texture_2d_array<f32>",
+        Binding::List(List::Ranges | List::Numbers) => "texture_2d_array<u32>",
         Binding::Sampler => "sampler",
     }
 }
@@ -255,11 +256,12 @@ pub(crate) fn file(stem: &str) -> &'static str {
     FILES.iter().find(|(name, _)| *name == stem).map_or("", |(_, text)| text)
 }
 
-/// WGSL in front of the pass that draws triangles for [`Caster::Triangles`].
-const TRIANGLES: &str = include_str!("shader/triangles.wgsl.in");
+/// Places the triangles of a [`CasterMesh`](crate::CasterMesh) on the map.
+const MESH: &str = include_str!("shader/mesh.wgsl.in");
 
-/// The pass that draws triangles. `cutout` is the caller's WGSL that leaves parts of them out; `spot`
-/// whether the view is a spot's, `None` if it may be either.
+/// The pass that draws triangles for [`Caster::Triangles`] or [`Caster::Lists`]. `cutout` is the
+/// caller's WGSL that leaves parts of them out; `spot` whether the view is a spot's, `None` if it may be
+/// either.
 pub(crate) fn triangles(
     technique: &dyn Technique,
     device: &Capabilities,
@@ -269,12 +271,16 @@ pub(crate) fn triangles(
     let mut shader = ShaderText::library(technique, device);
     shader.need("coverage", &[]);
     let text = shader.text();
+    let pass = match technique.caster() {
+        Caster::Lists { .. } => include_str!("shader/lists.wgsl.in"),
+        Caster::Depth | Caster::Triangles(_) => include_str!("shader/triangles.wgsl.in"),
+    };
     let alone = if cutout.is_some() { "true" } else { "false" };
     let left_out = |line: &&str| {
         cutout.is_none() && line.contains("// cut-outs")
             || device.clamps_depth() && line.contains("// unclamped")
     };
-    let glue = TRIANGLES.lines().filter(|line| !left_out(line));
+    let glue = MESH.lines().chain(pass.lines()).filter(|line| !left_out(line));
     // Masked code costs on software drivers what it costs where it is needed.
     let spot = match spot {
         Some(spot) => spot.to_string(),
@@ -287,6 +293,9 @@ pub(crate) fn triangles(
         glue.replace("{alone}", alone).replace("{spot}", &spot)
     )
 }
+
+/// The pass between counting and filling lists.
+pub(crate) const SCAN: &str = include_str!("shader/scan.wgsl");
 
 #[cfg(test)]
 mod tests;

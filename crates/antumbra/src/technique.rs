@@ -69,6 +69,30 @@ pub enum Caster {
     /// vec4u, corners: mat3x3f, distances: vec3f, centre: vec2f, size: vec2f, anchor: vec3f,
     /// slope: vec2f, alone: bool) -> vec4u`, what a texel stores. All zeros are an empty texel.
     Triangles(&'static [Coverage]),
+    /// All triangles that touch each texel, drawn from [`CasterMesh`](crate::CasterMesh)es by the
+    /// library's pipelines: [`Binding::List`]. They are drawn twice, to count and to fill the lists, so
+    /// that the closure of [`ShadowMap::encode`](crate::ShadowMap::encode) must draw the same in the
+    /// same order both times. What there is no room for is left out.
+    Lists {
+        /// Triangles per texel that there is room for, on average over the map.
+        per_texel: u32,
+        /// Triangles of one view that there is room for; those that a spot cuts count twice.
+        triangles: u32,
+    },
+}
+
+/// A texture that [`Caster::Lists`] leaves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum List {
+    /// `texture_2d_array<u32>`: of each texel the first entry of its list in layer 2·view, the one
+    /// behind its last in the next layer.
+    Ranges,
+    /// `texture_2d_array<u32>`, `per_texel` layers per view, each as large as the map: entry i, the
+    /// number of a triangle, counted row by row, layer by layer.
+    Numbers,
+    /// `texture_2d_array<f32>`: corner c of triangle n in layer 3·view + c, texel n counted row by row;
+    /// x and y in texels of the map, y down, z the depth as rasterised.
+    Corners,
 }
 
 /// Which texels a triangle is drawn to.
@@ -146,6 +170,8 @@ pub enum Binding {
     /// Entry of [`Technique::maps`]; view `v` starts at layer `v · layers`. A `LookupMap`:
     /// `texture_2d_array<f32>`, or `<u32>` for summed-area tables.
     Map(usize),
+    /// A texture of the lists of [`Caster::Lists`].
+    List(List),
     /// `sampler` for the maps: clamped, linear where the device can filter them.
     Sampler,
 }
@@ -373,4 +399,5 @@ techniques! {
     lvsm::Lvsm,
     rgsm::Rgsm,
     spsm::Spsm,
+    exact::Exact,
 }

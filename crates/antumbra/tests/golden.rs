@@ -358,6 +358,25 @@ fn rgsm_resolves_edges_of_large_triangles(gpu: &Gpu) {
     assert!(centres > 4 * three, "{centres}");
 }
 
+/// However small the map and the triangles.
+fn exact_resolves_everything(gpu: &Gpu) {
+    let fan: Vec<[(f32, f32); 3]> = (0..60)
+        .map(|k| {
+            let turn = |k: i32| {
+                let (sine, cosine) = (k as f32 * std::f32::consts::TAU / 60.0).sin_cos();
+                (0.5 + 0.37 * cosine, 0.5 + 0.37 * sine)
+            };
+            [(0.52, 0.49), turn(k), turn(k + 1)]
+        })
+        .collect();
+    for triangles in [&SLANTED[..], &fan] {
+        let wrong = wrong_behind(gpu, "exact.per_texel=64", triangles);
+        assert!(wrong <= 1, "{wrong} behind {} triangles", triangles.len());
+        let cut = wrong_behind(gpu, "exact.triangles=1", triangles);
+        assert!(cut > 5, "{cut} with room for one");
+    }
+}
+
 fn main() {
     type Claim = (&'static str, &'static str, fn(&Gpu));
     const CLAIMS: &[Claim] = &[
@@ -374,6 +393,7 @@ fn main() {
         ("evsm", "bleeds less than vsm", evsm_bleeds_less_than_vsm),
         ("msm", "bleeds less than vsm", msm_bleeds_less_than_vsm),
         ("lvsm", "bleeds less than vsm", lvsm_bleeds_less_than_vsm),
+        ("exact", "everything", exact_resolves_everything),
         ("rgsm", "edges of large triangles", rgsm_resolves_edges_of_large_triangles),
         ("spsm", "edges finer than texels", spsm_resolves_edges_below_a_texel),
     ];

@@ -145,6 +145,7 @@ fn darkens_with_depth(gpu: &Gpu, technique: &dyn Technique) -> Result<(), String
     // Silhouettes of triangles that are not kept are guesses, which differ with what is in front.
     let centred = |r: Receiver| match technique.caster() {
         Caster::Depth => r,
+        Caster::Lists { .. } => r,
         Caster::Triangles(_) => Receiver { uv: ((r.uv * 64.0).floor() + 0.5) / 64.0, ..r },
     };
     let deeper = |r: Receiver| (0..STEPS).map(move |i| Receiver { depth: i as f32 / STEPS as f32, ..r });
@@ -499,6 +500,13 @@ fn broken() -> Vec<(&'static str, Law, Broken)> {
             shrinks_to_the_hard_shadow,
             Broken::saying("rgsm", "slack.xy / size, abs(at)) < depth", "slack.xy / size, abs(at)) > depth"),
         ),
+        (
+            "lists with room for a third of the triangles",
+            is_dark_behind_a_blocker,
+            Broken::new("exact.per_texel=1"),
+        ),
+        ("room for one triangle", is_dark_behind_a_blocker, Broken::new("exact.triangles=1")),
+        ("corners of the first view", views_do_not_matter, Broken::saying("exact", "3u * view + k", "k")),
         ("a blur that brightens", filtering_keeps_the_mean, Broken { weights: 1.01, ..Broken::new("vsm") }),
         (
             "the first view's layer always",

@@ -9,7 +9,7 @@ use crate::{
     technique::{Coverage, Technique},
 };
 use glam::Mat4;
-use std::{num::NonZeroU64, ops::Range};
+use std::{cell::Cell, num::NonZeroU64, ops::Range};
 use wgpu::{BindGroup, BindGroupLayout, BufferBindingType, RenderPipeline, TextureFormat};
 
 /// Share of a spot's near distance in front of which casters are cut off.
@@ -19,10 +19,10 @@ const LEAST_DISTANCE: f32 = 1.0 / 64.0;
 /// caches, and treat all of them as clipped if one is.
 const DRAWN_TOGETHER: u32 = 2048;
 
-/// Rust side of `CasterView` in `triangles.wgsl.in`.
+/// Rust side of `CasterView` in `mesh.wgsl.in`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
-struct CasterView {
+pub(super) struct CasterView {
     clip_from_world: [[f32; 4]; 4],
     size: [f32; 2],
     least_distance: f32,
@@ -31,7 +31,26 @@ struct CasterView {
     padding: [f32; 3],
 }
 
-const VIEW_BYTES: u64 = size_of::<CasterView>() as u64;
+pub(super) const VIEW_BYTES: u64 = size_of::<CasterView>() as u64;
+
+impl CasterView {
+    pub(super) fn new(view: &View, size: Size, coverage: Coverage) -> Self {
+        // near = far · near_over_far, far − near = depth_world.
+        let near = view.depth_world * view.near_over_far / (1.0 - view.near_over_far).max(1e-6);
+        let perspective = perspective(view);
+        Self {
+            clip_from_world: view.clip_from_world.to_cols_array_2d(),
+            size: [size.width as f32, size.height as f32],
+            least_distance: if perspective == 1 { near * LEAST_DISTANCE } else { f32::MIN },
+            perspective,
+            reach: match coverage {
+                Coverage::Touched => 0.5,
+                Coverage::Centre => 0.0,
+            },
+            padding: [0.0; 3],
+        }
+    }
+}
 
 /// Triangles that cast shadows for a technique whose caster is [`Caster::Triangles`]: positions and
 /// indices that the library's vertex shader reads from storage buffers, so that it sees whole
@@ -110,10 +129,30 @@ impl CasterMesh {
         if start < end {
             pass.set_bind_group(1, &self.group, &[]);
         }
+        let first = number(vertices / 3 * start..vertices / 3 * end);
         for start in (start..end).step_by(DRAWN_TOGETHER as usize) {
-            pass.draw(vertices * start..vertices * end.min(start.saturating_add(DRAWN_TOGETHER)), 0..1);
+            let end = end.min(start.saturating_add(DRAWN_TOGETHER));
+            pass.draw(vertices * start..vertices * end, first..first + 1);
         }
     }
+}
+
+thread_local! {
+    /// The first number that no triangle of the pass has which this thread records. Lists tell
+    /// triangles of all meshes apart by numbers, and draws know neither one another nor their map.
+    static NEXT_NUMBER: Cell<u32> = const { Cell::new(0) };
+}
+
+/// Begins to number triangles from 0.
+pub(super) fn number_anew() {
+    NEXT_NUMBER.set(0);
+}
+
+/// What is added to those indices, so that no triangle before has the same number.
+fn number(indices: Range<u32>) -> u32 {
+    let first = NEXT_NUMBER.get().max(indices.start) - indices.start;
+    NEXT_NUMBER.set(first.saturating_add(indices.end));
+    first.min(u32::MAX - 1)
 }
 
 fn bound(binding: u32, buffer: &wgpu::Buffer) -> wgpu::BindGroupEntry<'_> {
@@ -121,7 +160,7 @@ fn bound(binding: u32, buffer: &wgpu::Buffer) -> wgpu::BindGroupEntry<'_> {
 }
 
 /// 1 for a spot's view, else 0.
-fn perspective(view: &View) -> u32 {
+pub(super) fn perspective(view: &View) -> u32 {
     u32::from(view.near_over_far < 1.0)
 }
 
@@ -137,7 +176,7 @@ fn layout(device: &wgpu::Device, label: &str, types: &[BufferBindingType]) -> Bi
         .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some(label), entries: &entries })
 }
 
-fn mesh_layout(device: &wgpu::Device) -> BindGroupLayout {
+pub(super) fn mesh_layout(device: &wgpu::Device) -> BindGroupLayout {
     let read = BufferBindingType::Storage { read_only: true };
     layout(device, "caster mesh", &[BufferBindingType::Uniform, read, read])
 }
@@ -234,21 +273,8 @@ impl TriangleCaster {
 
     pub(super) fn write(&self, queue: &wgpu::Queue, views: &[View]) {
         for (i, view) in views.iter().enumerate() {
-            // near = far · near_over_far, far − near = depth_world.
-            let near = view.depth_world * view.near_over_far / (1.0 - view.near_over_far).max(1e-6);
-            let perspective = perspective(view);
             for (pass, coverage) in self.coverages.iter().enumerate() {
-                let bytes = CasterView {
-                    clip_from_world: view.clip_from_world.to_cols_array_2d(),
-                    size: [self.size.width as f32, self.size.height as f32],
-                    least_distance: if perspective == 1 { near * LEAST_DISTANCE } else { f32::MIN },
-                    perspective,
-                    reach: match coverage {
-                        Coverage::Touched => 0.5,
-                        Coverage::Centre => 0.0,
-                    },
-                    padding: [0.0; 3],
-                };
+                let bytes = CasterView::new(view, self.size, *coverage);
                 let slot = (i * self.passes() + pass) as u64;
                 queue.write_buffer(&self.views, slot * self.stride, bytemuck::bytes_of(&bytes));
             }

@@ -1,6 +1,6 @@
 //! What must hold before anything is created, so that wgpu has nothing to complain about.
 
-use super::{Options, uniforms};
+use super::{Options, lists::Room, uniforms};
 use crate::{
     error::Unsupported,
     light::Size,
@@ -61,7 +61,15 @@ pub(super) fn caster(
     let name = technique.page().name.to_string();
     match (technique.caster(), depth, maps) {
         (Caster::Depth, ..) => Ok(()),
-        (Caster::Triangles(_), Some(_), _) => Err(Unsupported::Triangles { technique: name }),
+        (Caster::Triangles(_) | Caster::Lists { .. }, Some(_), _) => {
+            Err(Unsupported::Triangles { technique: name })
+        }
+        (Caster::Lists { .. }, None, _) if technique.jitter().len() == 1 => Ok(()),
+        (Caster::Lists { .. }, None, _) => Err(Unsupported::Feature {
+            technique: name,
+            what: "a single caster pass".into(),
+            instead: "describe no more in Technique::jitter".into(),
+        }),
         (Caster::Triangles(all), None, [map]) if map.layers as usize == all.len() => Ok(()),
         (Caster::Triangles(_), None, _) => Err(Unsupported::Feature {
             technique: name,
@@ -69,6 +77,33 @@ pub(super) fn caster(
             instead: "describe just that in Technique::maps".into(),
         }),
     }
+}
+
+/// Whether the lists of all triangles fit.
+pub(super) fn lists(device: &wgpu::Device, technique: &dyn Technique, room: Room) -> Result<(), Unsupported> {
+    let limits = device.limits();
+    let layers = room.per_texel.max(3).saturating_mul(room.views);
+    let max = limits.max_texture_array_layers;
+    if !(1..=max).contains(&layers) {
+        return Err(Unsupported::Layers { views: room.views, layers, max });
+    }
+    let refused = |what: String, instead: String| {
+        Err(Unsupported::Feature { technique: technique.page().name.into(), what, instead })
+    };
+    let (bytes, max) = (room.count_bytes(), limits.max_storage_buffer_binding_size);
+    if bytes > max {
+        let what = format!("a storage binding of {bytes} bytes for the counts ({max} are possible)");
+        return refused(what, format!("take at most {} texels", max / 4));
+    }
+    let (rows, max) = (room.rows(), limits.max_texture_dimension_2d);
+    if !(1..=max).contains(&rows) {
+        let what = format!(
+            "corners of {} triangles in {rows} rows of 2048 (1 to {max} are possible)",
+            room.triangles
+        );
+        return refused(what, format!("take 1 to {} triangles", u64::from(max) * 2048));
+    }
+    Ok(())
 }
 
 /// Whether the passes can read a caller's depth; how many views it holds, with that many layers each.

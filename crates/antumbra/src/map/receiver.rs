@@ -1,6 +1,7 @@
 //! What receivers bind.
 
 use super::{
+    lists::Lists,
     textures::{self, Textures},
     uniforms::{self, Uniforms},
 };
@@ -16,6 +17,7 @@ pub(super) fn group(
     capabilities: &Capabilities,
     textures: &Textures,
     uniforms: &Uniforms,
+    lists: Option<&Lists>,
 ) -> (wgpu::BindGroupLayout, wgpu::BindGroup) {
     use wgpu::{BindingResource, BindingType, SamplerBindingType, TextureSampleType};
     let texture = |sample_type| BindingType::Texture {
@@ -45,6 +47,14 @@ pub(super) fn group(
                     _ => TextureSampleType::Float { filterable: capabilities.filters(format) },
                 };
                 (texture(kind), BindingResource::TextureView(&map.array))
+            }
+            Binding::List(list) => {
+                let Some((view, format)) = lists.map(|lists| lists.texture(*list)) else { continue };
+                let kind = match format.sample_type(None, None) {
+                    Some(TextureSampleType::Uint) => TextureSampleType::Uint,
+                    _ => TextureSampleType::Float { filterable: false },
+                };
+                (texture(kind), BindingResource::TextureView(view))
             }
             Binding::Sampler => {
                 let kind =

@@ -55,7 +55,10 @@ fn variants() -> Vec<Box<dyn Technique>> {
         if names.contains(&"choose") {
             settings.extend(["choose=receiver", "choose=blend"]);
         }
-        if names.contains(&"packing") {
+        if names.contains(&"neighbours") {
+            settings.extend(["packing=map,missed=lit", "packing=texel,neighbours=5"]);
+        }
+        if names.contains(&"layers") {
             settings.extend(["packing=map,layers=1", "packing=texel,samples=4", "samples=2"]);
         }
         if names.contains(&"moments") {

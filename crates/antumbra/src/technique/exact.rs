@@ -1,0 +1,105 @@
+//! The limit of shadow maps that keep triangles: every texel has a list of all triangles that touch it,
+//! and lookups intersect the receiver's ray with each of them.
+//!
+//! The answer is that of a ray through the same triangles, up to the rounding of 32-bit coordinates;
+//! the size of the map decides how fast it comes, not what it is. Casters are drawn twice, to count and
+//! to fill the lists. Memory is allocated once, for a number of triangles that has to be known; what
+//! does not fit is left out, and light leaks there
+//! ([`ShadowMap::list_totals`](crate::ShadowMap::list_totals) tells). Holes of cut-out casters have the
+//! resolution of the map.
+//!
+//! What Lecocq et al. 2014, "Sub-Pixel Shadow Mapping", §3.1, call intractable.
+
+use super::{Bias, Binding, Caster, DepthSpace, Family, List, Map, Page, Technique};
+use crate::{
+    capabilities::Capabilities,
+    error::Unsupported,
+    parameter::{Field, Parameter},
+};
+
+/// Lists of all triangles. 16 bytes per texel, 4 for each triangle in it on average that there is room
+/// for, 48 for every triangle of the scene; 2 lookups, and 4 for every triangle of a list until one
+/// shadows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Exact {
+    /// Triangles per texel that there is room for, on average over the map.
+    pub per_texel: u32,
+    /// Triangles of one view that there is room for, those that a spot cuts twice.
+    pub triangles: u32,
+}
+
+impl Default for Exact {
+    fn default() -> Self {
+        Self { per_texel: 8, triangles: 1 << 19 }
+    }
+}
+
+impl Technique for Exact {
+    fn page(&self) -> Page {
+        Page {
+            name: "exact",
+            title: "Lists of all triangles",
+            family: Family::Geometry,
+            paper: "limit of Lecocq et al. 2014",
+        }
+    }
+    fn parameters(&mut self) -> Vec<Parameter<'_>> {
+        vec![
+            Parameter::new(
+                "per_texel",
+                "triangles",
+                Field::Count(&mut self.per_texel, 1..=64),
+                "triangles per texel that there is room for, on average over the map",
+            ),
+            Parameter::new(
+                "triangles",
+                "",
+                Field::Count(&mut self.triangles, 1..=1 << 24),
+                "triangles of the casters that there is room for",
+            ),
+        ]
+    }
+    fn maps(&self, _: &Capabilities) -> Result<Vec<Map>, Unsupported> {
+        Ok(Vec::new())
+    }
+    fn caster(&self) -> Caster {
+        Caster::Lists { per_texel: self.per_texel, triangles: self.triangles }
+    }
+    fn bindings(&self) -> Vec<Binding> {
+        [List::Ranges, List::Numbers, List::Corners].map(Binding::List).to_vec()
+    }
+    fn wgsl(&self) -> &'static str {
+        include_str!("exact.wgsl")
+    }
+    fn bias(&self) -> Bias {
+        Bias { constant_texels: 0.005, slope_texels: 0.005, ..Bias::NONE }
+    }
+    fn depth_space(&self) -> DepthSpace {
+        DepthSpace::Raster
+    }
+    fn reach_texels(&self) -> f32 {
+        0.5
+    }
+    /// Of a list as long as there is room for on average.
+    fn lookups(&self) -> u32 {
+        2 + 4 * self.per_texel
+    }
+    fn boxed(&self) -> Box<dyn Technique> {
+        Box::new(*self)
+    }
+}
+
+/// The answer in f64.
+pub mod reference {
+    /// Depth of a triangle with corners (x, y, depth) at a point; infinite if it does not cover it.
+    #[must_use]
+    pub fn depth(corners: [[f64; 3]; 3], point: [f64; 2]) -> f64 {
+        let at = corners.map(|c| [c[0] - point[0], c[1] - point[1]]);
+        let area = |a: [f64; 2], b: [f64; 2]| a[0] * b[1] - a[1] * b[0];
+        let weights = [0, 1, 2].map(|k| area(at[(k + 1) % 3], at[(k + 2) % 3]));
+        let inside = weights.iter().all(|w| *w >= 0.0) || weights.iter().all(|w| *w <= 0.0);
+        let depth: f64 = (0..3).map(|k| weights[k] * corners[k][2]).sum();
+        if inside { depth / weights.iter().sum::<f64>() } else { f64::INFINITY }
+    }
+}

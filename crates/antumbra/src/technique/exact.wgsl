@@ -1,0 +1,43 @@
+/// Twice the area of the triangle between the receiver and two corners, given relative to it. The same
+/// number with the other sign for corners the other way around, so that no ray passes between two
+/// triangles with a common edge.
+fn exact_area(a: vec3f, b: vec3f) -> f32 {
+    return a.x * b.y - a.y * b.x;
+}
+
+/// Depth at the receiver's ray of a triangle whose corners lie around it in x and y, depths in z; beyond
+/// all depths if the ray misses it.
+fn exact_depth(a: vec3f, b: vec3f, c: vec3f) -> f32 {
+    let weights = vec3f(exact_area(b, c), exact_area(c, a), exact_area(a, b));
+    let sum = weights.x + weights.y + weights.z;
+    let inside = all(weights >= vec3f(0.0)) || all(weights <= vec3f(0.0));
+    return select(1e30, dot(weights, vec3f(a.z, b.z, c.z)) / sum, inside && sum != 0.0);
+}
+
+/// Corner `k` of triangle `n`.
+fn exact_corner(corners: texture_2d_array<f32>, n: u32, view: u32, k: u32) -> vec3f {
+    let row = textureDimensions(corners).x;
+    return textureLoad(corners, vec2u(n % row, n / row), 3u * view + k, 0).xyz;
+}
+
+/// 0 if any triangle of the list of the receiver's texel is between it and the light, else 1. `depth` is
+/// projected depth, in which triangles are planes under any light.
+fn exact_visibility(ranges: texture_2d_array<u32>, numbers: texture_2d_array<u32>, corners: texture_2d_array<f32>, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f) -> f32 {
+    let size = textureDimensions(ranges);
+    let point = uv * vec2f(size);
+    let texel = min(vec2u(max(point, vec2f(0.0))), size - 1u);
+    let end = textureLoad(ranges, texel, 2u * view + 1u, 0).x;
+    let layers = textureNumLayers(numbers) / (textureNumLayers(ranges) / 2u);
+    for (var i = textureLoad(ranges, texel, 2u * view, 0).x; i < end; i += 1u) {
+        let row = i / size.x;
+        let n = textureLoad(numbers, vec2u(i % size.x, row % size.y), layers * view + row / size.y, 0).x;
+        let ray = vec3f(point, 0.0);
+        let a = exact_corner(corners, n, view, 0u) - ray;
+        let b = exact_corner(corners, n, view, 1u) - ray;
+        let c = exact_corner(corners, n, view, 2u) - ray;
+        if exact_depth(a, b, c) < depth {
+            return 0.0;
+        }
+    }
+    return 1.0;
+}
