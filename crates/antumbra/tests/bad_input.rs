@@ -6,8 +6,8 @@
 mod common;
 
 use antumbra::{
-    Capabilities, Csm, Esm, Evsm, Filter, Hard, LightError, NoProbe, Options, Pcf, Pipelines, Sampling,
-    SettingError, ShadowMap, Size, Technique, Unsupported, Vsm, technique,
+    Capabilities, Csm, Esm, Evsm, Exact, Filter, Hard, LightError, NoProbe, Options, Pcf, Pipelines,
+    Sampling, SettingError, ShadowMap, Size, Technique, Unsupported, Vsm, technique,
     technique::{BiasTerms, evsm},
 };
 use antumbra_testing::{Gpu, Trials};
@@ -200,6 +200,29 @@ fn depth_formats_are_taken(gpu: &Gpu) {
     }
 }
 
+/// Lists of triangles: no room at all, more than the device has, depth instead of triangles.
+fn lists(gpu: &Gpu) {
+    let exact = |per_texel, triangles| Exact { per_texel, triangles };
+    says(&refusal(gpu, &exact(0, 1), SIZE), &["exact.per_texel", "0", "1 to 64"]);
+    says(&refusal(gpu, &exact(1, 0), SIZE), &["exact.triangles", "0", "1 to 16777216"]);
+    let max = gpu.device.limits().max_texture_array_layers;
+    let views = max / 64 + 1;
+    let message = refusal(gpu, &exact(64, 1), Options::from(SIZE).views(views));
+    says(&message, &[&format!("{views} views"), &(64 * views).to_string(), &format!("1 to {max}")]);
+    let error =
+        ShadowMap::from_depth(&gpu.device, &Exact::default(), &texture(gpu, |_| ()), SIZE).unwrap_err();
+    assert!(matches!(error, Unsupported::Triangles { .. }), "{error}");
+    let limits = wgpu::Limits { max_storage_buffer_binding_size: 1 << 10, ..Default::default() };
+    let limits = wgpu::Limits { max_texture_dimension_2d: 64, ..limits };
+    let lesser = antumbra_testing::gpu_with(wgpu::Features::empty(), limits).unwrap();
+    lesser.checked(|gpu| {
+        let message = refusal(gpu, &exact(1, 1), Size::square(17));
+        says(&message, &["exact", "1156 bytes", "1024", "at most 256 texels"]);
+        let message = refusal(gpu, &exact(1, 64 * 2048 + 1), SIZE);
+        says(&message, &["exact", "131073 triangles", "65 rows", "1 to 131072 triangles"]);
+    });
+}
+
 fn too_many_views(gpu: &Gpu) {
     let mut shadows = ShadowMap::new(&gpu.device, &Esm::default(), Options::from(SIZE).views(2)).unwrap();
     let view = common::view(SIZE);
@@ -278,6 +301,7 @@ fn main() {
     trials.add("biases that are no numbers", bias);
     trials.add("a caller's depth that cannot be read", callers_depth);
     trials.add("a caller's depth of any format", depth_formats_are_taken);
+    trials.add("lists that have no room", lists);
     trials.add("more views than there is room for", too_many_views);
     trials.add("the least that WebGPU promises", least_devices);
     trials.add_plain("names and settings that do not exist", specs);

@@ -230,7 +230,7 @@ pub(crate) fn spsm_tangents(gpu: &Gpu) {
 }
 
 /// Whether a triangle overlaps the square of half side `half` around a centre: separating axes.
-fn overlaps(triangle: &[DVec2; 3], centre: DVec2, half: f64) -> bool {
+pub(crate) fn overlaps(triangle: &[DVec2; 3], centre: DVec2, half: f64) -> bool {
     let beside = |axis: DVec2, reach: f64| {
         let along = triangle.map(|p| axis.dot(p - centre));
         let (low, high) = (along[0].min(along[1]).min(along[2]), along[0].max(along[1]).max(along[2]));

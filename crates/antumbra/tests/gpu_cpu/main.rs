@@ -9,6 +9,7 @@ mod basis;
 mod common;
 mod comparison;
 mod geometry;
+mod lists;
 mod lookups;
 mod receiver;
 mod stored;
@@ -177,6 +178,10 @@ fn main() {
     trials.add("spsm finds consistent least depths", geometry::spsm_finds_least_depths);
     trials.add("spsm's table of tangents", geometry::spsm_tangents);
     trials.add("every touched texel is drawn", geometry::every_touched_texel_is_drawn);
+    trials.add("lists hold all triangles", lists::lists_hold_all_triangles);
+    trials.add("lists without room are cut", lists::lists_without_room_are_cut);
+    trials.add("lists tell their memory", lists::lists_tell_their_memory);
+    trials.add("exact intersects", lists::exact_intersects);
     trials.add("triangles that reach behind a spot are cut", geometry::triangles_behind_a_spot_are_cut);
     trials.run();
 }

@@ -1,0 +1,248 @@
+//! Lists of all triangles: what is counted, given room and entered; intersection.
+
+use super::{INPUTS, Row, geometry::overlaps, row, rows, run};
+use crate::common::{Random, caster_mesh, compute, view};
+use antumbra::{Exact, Lifetime, Options, ShadowMap, Size, View, technique::exact};
+use antumbra_testing::Gpu;
+use glam::{DVec2, Mat4, Vec2, Vec3};
+use std::collections::BTreeSet;
+
+const MAP: Size = Size { width: 48, height: 32 };
+const TEXELS: usize = 48 * 32;
+/// Triangles of two meshes, the second drawn in two parts.
+const MESHES: [u32; 2] = [90, 150];
+const TRIANGLES: u32 = MESHES[0] + MESHES[1];
+/// Most entries of a texel that are read.
+const MOST: usize = 96;
+
+/// Triangles of many sizes, some beside the map.
+fn soup(random: &mut Random) -> Vec<[Vec3; 3]> {
+    let mut triangle = || {
+        let size = 10f32.powf(random.range(-1.7, 0.3));
+        let middle = Vec2::new(random.range(-1.1, 1.1), random.range(-1.1, 1.1));
+        std::array::from_fn(|_| {
+            let away = size * Vec2::new(random.range(-1.0, 1.0), random.range(-1.0, 1.0));
+            (middle + away).extend(random.range(0.1, 0.9))
+        })
+    };
+    (0..TRIANGLES).map(|_| triangle()).collect()
+}
+
+/// The view of the tests, and the same seen in a mirror.
+fn views() -> [View; 2] {
+    let plain = view(MAP);
+    [plain, View { clip_from_world: Mat4::from_scale(Vec3::new(-1.0, 1.0, 1.0)), ..plain }]
+}
+
+fn drawn(gpu: &Gpu, technique: Exact, triangles: &[[Vec3; 3]]) -> ShadowMap {
+    let mut shadows = ShadowMap::new(&gpu.device, &technique, Options::from(MAP).views(2)).unwrap();
+    shadows.prepare(&gpu.queue, &views()).unwrap();
+    let (first, second) = triangles.as_flattened().split_at(3 * MESHES[0] as usize);
+    let meshes = [first, second].map(|corners| caster_mesh(gpu, corners));
+    // Twice: nothing of the first time may be left.
+    for _ in 0..2 {
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        shadows.encode(&mut encoder, |view, pass| {
+            meshes[0].draw(view, pass);
+            meshes[1].draw_part(view, pass, 0..40);
+            meshes[1].draw_part(view, pass, 40..u32::MAX);
+        });
+        gpu.queue.submit([encoder.finish()]);
+    }
+    shadows
+}
+
+/// Of every texel of a view where its list begins and ends, and its entries: numbers and corners.
+struct Found {
+    ranges: Vec<[u32; 2]>,
+    numbers: Vec<Vec<u32>>,
+    corners: Vec<[Vec3; 3]>,
+}
+
+fn found(gpu: &Gpu, shadows: &ShadowMap, view: u32) -> Found {
+    let user = format!(
+        "@group(1) @binding(0) var<storage, read> unused: array<f32>;
+        @group(1) @binding(1) var<storage, read_write> results: array<f32>;
+        @compute @workgroup_size(64) fn main(@builtin(global_invocation_id) id: vec3u) {{
+            let size = textureDimensions(shadow_binding_0);
+            if id.x >= size.x * size.y + {TRIANGLES}u {{ return; }}
+            let me = id.x * {stride}u;
+            if id.x >= size.x * size.y {{
+                let n = id.x - size.x * size.y;
+                for (var k = 0u; k < 9u; k += 1u) {{
+                    results[me + k] = exact_corner(shadow_binding_2, n, {view}u, k / 3u)[k % 3u];
+                }}
+                return;
+            }}
+            let texel = vec2u(id.x % size.x, id.x / size.x);
+            let start = textureLoad(shadow_binding_0, texel, {view}u * 2u, 0).x;
+            let end = textureLoad(shadow_binding_0, texel, {view}u * 2u + 1u, 0).x;
+            results[me] = f32(start);
+            results[me + 1u] = f32(end);
+            for (var i = start; i < min(end, start + {MOST}u); i += 1u) {{
+                let row = i / size.x;
+                let layers = textureNumLayers(shadow_binding_1) / 2u;
+                let at = vec2u(i % size.x, row % size.y);
+                let n = textureLoad(shadow_binding_1, at, {view}u * layers + row / size.y, 0).x;
+                results[me + 2u + i - start] = f32(n);
+            }}
+        }}
+        fn keep(p: vec3f) -> f32 {{ return shadow_visibility(p, p, p, p) + unused[0]; }}",
+        stride = MOST + 2,
+    );
+    let count = TEXELS + TRIANGLES as usize;
+    let flat = compute(gpu, shadows, &user, &[0; 16], count * (MOST + 2), count);
+    let (texels, corners) = flat.split_at(TEXELS * (MOST + 2));
+    let ranges = texels.chunks_exact(MOST + 2).map(|t| [t[0] as u32, t[1] as u32]).collect();
+    let entries = |t: &[f32]| {
+        let length = (t[1] - t[0]) as usize;
+        assert!(length <= MOST, "{length} entries");
+        t[2..2 + length].iter().map(|n| *n as u32).collect()
+    };
+    let corners = corners.chunks_exact(MOST + 2);
+    Found {
+        ranges,
+        numbers: texels.chunks_exact(MOST + 2).map(entries).collect(),
+        corners: corners
+            .map(|c| [0, 1, 2].map(|k| Vec3::new(c[3 * k], c[3 * k + 1], c[3 * k + 2])))
+            .collect(),
+    }
+}
+
+/// The triangles in texels of a view, depth in z.
+fn on_map(view: &View, triangles: &[[Vec3; 3]]) -> Vec<[Vec3; 3]> {
+    let texels = |p: Vec3| {
+        let clip = view.clip_from_world.transform_point3(p);
+        let uv = Vec2::new(0.5, -0.5) * clip.truncate() + 0.5;
+        (uv * Vec2::new(MAP.width as f32, MAP.height as f32)).extend(clip.z)
+    };
+    triangles.iter().map(|t| t.map(texels)).collect()
+}
+
+/// Numbers of the triangles that overlap the square of half side `half` around a texel's centre.
+fn overlapping(triangles: &[[Vec3; 3]], texel: usize, half: f64) -> BTreeSet<u32> {
+    let centre = DVec2::new((texel % 48) as f64 + 0.5, (texel / 48) as f64 + 0.5);
+    let flat = |t: &[Vec3; 3]| t.map(|p| p.truncate().as_dvec2());
+    let hit = |(n, t): (u32, &[Vec3; 3])| overlaps(&flat(t), centre, half).then_some(n);
+    (0..).zip(triangles).filter_map(hit).collect()
+}
+
+/// Totals of both views.
+fn totals(gpu: &Gpu, shadows: &ShadowMap) -> Vec<u32> {
+    let bytes = gpu.read_buffer(shadows.list_totals().unwrap());
+    bytes.chunks_exact(4).map(|b| u32::from_ne_bytes([b[0], b[1], b[2], b[3]])).collect()
+}
+
+/// Every texel lists every triangle that touches it, once, and none that is a thousandth of a texel away;
+/// lists lie behind one another without gaps; numbers lead to the triangles' corners.
+pub(crate) fn lists_hold_all_triangles(gpu: &Gpu) {
+    let triangles = soup(&mut Random::new(31));
+    let technique = Exact { per_texel: 40, triangles: TRIANGLES };
+    let shadows = drawn(gpu, technique, &triangles);
+    for (index, view) in (0..).zip(&views()) {
+        let placed = on_map(view, &triangles);
+        let Found { mut ranges, numbers, corners } = found(gpu, &shadows, index);
+        let mut longest = 0;
+        for (texel, list) in numbers.iter().enumerate() {
+            let held: BTreeSet<u32> = list.iter().copied().collect();
+            assert_eq!(held.len(), list.len(), "a triangle is listed twice: {list:?}");
+            assert!(overlapping(&placed, texel, 0.5).is_subset(&held), "texel {texel}: {held:?}");
+            assert!(held.is_subset(&overlapping(&placed, texel, 0.501)), "texel {texel}: {held:?}");
+            longest = longest.max(list.len());
+        }
+        assert!(longest > 12, "{longest}");
+        // A rasteriser that asks centres would miss many.
+        let missed = |texel: &usize| overlapping(&placed, *texel, 0.0).len() < numbers[*texel].len();
+        assert!((0..TEXELS).filter(missed).count() > TEXELS / 2);
+        ranges.sort_unstable();
+        assert!(ranges.windows(2).all(|pair| pair[0][1] == pair[1][0]), "lists overlap or leave gaps");
+        assert_eq!(ranges[0][0], 0);
+        let total: usize = numbers.iter().map(Vec::len).sum();
+        assert_eq!(totals(gpu, &shadows)[2 * index as usize..][..2], [total as u32, 0]);
+        let same = |found: &[Vec3; 3], expected: &[Vec3; 3]| {
+            expected.iter().all(|p| found.iter().any(|q| p.distance(*q) < 1e-4))
+        };
+        let listed: BTreeSet<u32> = numbers.concat().into_iter().collect();
+        assert!(listed.len() > TRIANGLES as usize / 2);
+        let right = |shift: usize| {
+            let right =
+                |n: &&u32| same(&corners[**n as usize], &placed[(**n as usize + shift) % placed.len()]);
+            listed.iter().filter(right).count()
+        };
+        assert_eq!(right(0), listed.len());
+        assert!(right(1) < 3, "{} of the next number", right(1));
+    }
+}
+
+/// What there is no room for is left out and told; nothing else is written.
+pub(crate) fn lists_without_room_are_cut(gpu: &Gpu) {
+    let triangles = soup(&mut Random::new(32));
+    let whole = drawn(gpu, Exact { per_texel: 40, triangles: TRIANGLES }, &triangles);
+    let needed = totals(gpu, &whole);
+    let cut = drawn(gpu, Exact { per_texel: 2, triangles: TRIANGLES }, &triangles);
+    assert_eq!(totals(gpu, &cut), needed);
+    let room = 2 * TEXELS as u32;
+    assert!(needed[0] > 2 * room, "{needed:?}");
+    for view in [0, 1] {
+        let [full, few] = [&whole, &cut].map(|shadows| found(gpu, shadows, view));
+        assert!(few.ranges.iter().all(|[start, end]| start <= end && *end <= room));
+        let held: usize = few.numbers.iter().map(Vec::len).sum();
+        assert_eq!(held as u32, room);
+        for (few, full) in few.numbers.iter().zip(&full.numbers) {
+            let full: BTreeSet<u32> = full.iter().copied().collect();
+            assert!(few.iter().all(|n| full.contains(n)), "{few:?} of {full:?}");
+        }
+    }
+    let fewer = drawn(gpu, Exact { per_texel: 40, triangles: 50 }, &triangles);
+    assert!(found(gpu, &fewer, 0).numbers.concat().iter().all(|n| *n < 50));
+    let [entries, wanted, ..] = totals(gpu, &fewer)[..] else { panic!("no totals") };
+    assert!(entries < needed[0] && (51..=TRIANGLES).contains(&wanted), "{entries}, {wanted}");
+}
+
+pub(crate) fn lists_tell_their_memory(gpu: &Gpu) {
+    let technique = Exact { per_texel: 6, triangles: 3000 };
+    let shadows = ShadowMap::new(&gpu.device, &technique, Options::from(MAP).views(2)).unwrap();
+    let memory = shadows.memory();
+    let bytes = |name: &str| memory.items.iter().find(|i| i.name == name).map_or(0, |i| i.bytes);
+    let texels = TEXELS as u64;
+    assert_eq!(bytes("list ranges"), 2 * 8 * texels);
+    assert_eq!(bytes("list numbers"), 2 * 6 * 4 * texels);
+    assert_eq!(bytes("list corners"), 2 * 3 * 16 * 2 * 2048);
+    assert_eq!(bytes("list counts"), 4 * texels);
+    let counts = memory.items.iter().find(|i| i.name == "list counts").unwrap();
+    assert_eq!(counts.lifetime, Lifetime::Transient);
+    assert!(shadows.explain().join("\n").contains("6 per texel, of 3000"), "{:?}", shadows.explain());
+}
+
+/// A triangle around the receiver or not, in texels; its corners' depths.
+fn around(r: &mut Random) -> Row {
+    row(std::array::from_fn::<f32, 9, _>(|i| if i % 3 == 2 { r.unit() } else { r.range(-1.0, 1.0) }))
+}
+
+pub(crate) fn exact_intersects(gpu: &Gpu) {
+    let rows = rows(33, around);
+    let shadows = ShadowMap::new(&gpu.device, &Exact::default(), MAP).unwrap();
+    let found = run::<1>(gpu, &shadows, "put(0u, exact_depth(take3(0u), take3(3u), take3(6u)));", &rows);
+    let depth = |r: &[f64; INPUTS], at: [f64; 2]| {
+        let corners = [0, 1, 2].map(|k| [r[3 * k], r[3 * k + 1], r[3 * k + 2]]);
+        exact::reference::depth(corners, at).min(1e30)
+    };
+    // Rays that all but touch an edge may go either way.
+    let clear = |r: &&(Row, [f32; 1])| {
+        let r = r.0.map(f64::from);
+        [-1.0, 1.0].iter().all(|x| {
+            let near = [[1e-5 * x, 1e-5], [1e-5 * x, -1e-5]];
+            near.iter().all(|at| (depth(&r, *at) > 1e29) == (depth(&r, [0.0; 2]) > 1e29))
+        })
+    };
+    let pairs: Vec<(Row, [f32; 1])> = rows.into_iter().zip(found).collect();
+    let (rows, found): (Vec<Row>, Vec<[f32; 1]>) = pairs.iter().filter(clear).copied().unzip();
+    assert!(found.iter().filter(|f| f[0] < 1.0).count() > 500);
+    let close = |a: f64, b: f64| if b > 1e29 { a > 1e29 } else { (a - b).abs() < 2e-3 };
+    let wrong = |at: [f64; 2]| {
+        let pairs = rows.iter().zip(&found);
+        pairs.filter(|(r, f)| !close(f64::from(f[0]), depth(&r.map(f64::from), at))).count()
+    };
+    assert_eq!(wrong([0.0; 2]), 0);
+    assert!(wrong([0.05, 0.0]) > 500, "{}", wrong([0.05, 0.0]));
+}
