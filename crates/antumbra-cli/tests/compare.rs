@@ -29,6 +29,7 @@ fn main() {
     let mut trials = Trials::default();
     trials.add("comparison_and_its_report", |_| comparison());
     trials.add("pictures", |_| pictures());
+    trials.add("triangles_without_room", |_| room());
     trials.add("times", |_| times());
     trials.add("info", |_| {
         let info = json(&["info", "--json"]);
@@ -82,6 +83,20 @@ fn lists() {
         assert!(folder.run(&["completions", shell]).good().contains("antumbra"));
     }
     folder.run(&["completions", "sh"]).refusal(&["'sh'", "bash"]);
+}
+
+/// Light that leaks for want of room is told, with what to set.
+fn room() {
+    let folder = Folder::new();
+    let render = |spec: &str| {
+        let options = ["--resolution", "64x48", "--size", "64", "-t", spec, "-o", "a.png"];
+        folder.run(&[&["render", "contact"], &options[..]].concat())
+    };
+    let short = render("exact.triangles=5");
+    assert_eq!(short.code, Some(0), "{}", short.err);
+    let words = ["exact.triangles=5", "no room for 17 triangles", "set triangles=17 (is 5)"];
+    assert!(words.iter().all(|word| short.err.contains(word)), "{}", short.err);
+    render("exact.triangles=17").good();
 }
 
 fn export() {

@@ -262,6 +262,7 @@ fn technique(s: &Sample, truth: &Truth, images: &mut Images) -> Result<Technique
             "Sample data: times and memory are made up.".into(),
             "Filters 32-bit floats in hardware.".into(),
         ],
+        shortage: None,
         images: names,
     })
 }

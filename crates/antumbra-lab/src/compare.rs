@@ -8,6 +8,7 @@ use crate::{
     plane::error_heat_map,
     report::file_stem,
     results::{Program, Results, SCHEMA, Scores, TechniqueImages, TimeResult},
+    room::Room,
     stage::Stage,
     timing::{self, Entrant},
 };
@@ -225,6 +226,7 @@ struct Rendered {
     classes: Vec<ClassShare>,
     regions: BTreeMap<String, metrics::Score>,
     images: TechniqueImages,
+    room: Option<Room>,
 }
 
 /// Draws one technique on the surfaces that the stage already holds, and scores it.
@@ -279,7 +281,7 @@ fn render(
         error_light_space: save("error-light-space.png", error(&truths.light_space)?),
     };
     let classes = numbers.map(|numbers| classes::shares(&numbers, known)).unwrap_or_default();
-    Ok(Rendered { scores, classes, regions, images })
+    Ok(Rendered { scores, classes, regions, images, room: Room::read(gpu, shadows)? })
 }
 
 /// Times all contestants and, for reference, shading without shadows and the standard shadow map

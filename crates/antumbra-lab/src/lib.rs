@@ -27,6 +27,7 @@ pub mod plane;
 pub mod regions;
 pub mod report;
 pub mod results;
+pub mod room;
 pub mod stage;
 mod texels;
 pub mod timing;

@@ -204,6 +204,9 @@ pub struct TechniqueResult {
     pub work: Option<Work>,
     /// What the library chose and why: formats, fallbacks.
     pub explain: Vec<String>,
+    /// What the technique had no room for, which makes its scores meaningless. Added later.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shortage: Option<String>,
     /// Its images.
     pub images: TechniqueImages,
 }

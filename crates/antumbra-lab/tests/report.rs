@@ -88,6 +88,7 @@ fn technique(spec: &str, title: &str, family: Family, visibility: f32) -> Techni
             passes: vec!["convert".into()],
         }),
         explain: vec!["chose depth32float".into()],
+        shortage: None,
         images: TechniqueImages {
             picture: image("picture"),
             visibility: image("visibility"),

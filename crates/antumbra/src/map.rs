@@ -361,9 +361,10 @@ impl ShadowMap {
         self.triangles.as_ref().map(|t| t.pipeline(view)).or(lists)
     }
 
-    /// Two `u32` per view, usage `COPY_SRC`, for techniques whose caster is [`Caster::Lists`]: entries
+    /// Four `u32` per view, usage `COPY_SRC`, for techniques whose caster is [`Caster::Lists`]: entries
     /// that the casters of the last [`encode`](Self::encode) needed, of `width · height · per_texel`
-    /// that there is room for; and the number of their triangles if it is more than `triangles`, else 0.
+    /// that there is room for; length of the longest list; number of the casters' triangles if it is
+    /// more than `triangles`, else 0; 0.
     #[must_use]
     pub fn list_totals(&self) -> Option<&wgpu::Buffer> {
         self.lists.as_ref().map(Lists::totals)

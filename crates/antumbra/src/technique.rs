@@ -87,11 +87,11 @@ pub enum List {
     /// `texture_2d_array<u32>`: of each texel the first entry of its list in layer 2·view, the one
     /// behind its last in the next layer.
     Ranges,
-    /// `texture_2d_array<u32>`, `per_texel` layers per view, each as large as the map: entry i, the
-    /// number of a triangle, counted row by row, layer by layer.
+    /// `texture_2d_array<u32>`: entry i, the number of a triangle, in texel (i mod 2048, ⌊i / 2048⌋ mod
+    /// 2048) of layer ⌊i / 2048²⌋ of the view's, all of which have as many.
     Numbers,
-    /// `texture_2d_array<f32>`: corner c of triangle n in layer 3·view + c, texel n counted row by row;
-    /// x and y in texels of the map, y down, z the depth as rasterised.
+    /// `texture_2d_array<f32>`: corner c of triangle n in texel (n mod 2048, ⌊n / 2048⌋) of layer
+    /// 3·view + c: x and y in texels of the map, y down, z the depth as rasterised.
     Corners,
 }
 

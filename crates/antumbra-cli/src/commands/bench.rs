@@ -55,7 +55,7 @@ pub(crate) fn run(arguments: &Bench) -> Result<()> {
         writeln!(out, "{}", serde_json::to_string_pretty(&all)?)?;
         return Ok(());
     }
-    const PASSES: [&str; 7] = ["cast", "convert", "blur", "mips", "sum", "surfaces", "lookup"];
+    const PASSES: [&str; 8] = ["cast", "scan", "convert", "blur", "mips", "sum", "surfaces", "lookup"];
     let rows: Vec<Vec<String>> = names
         .zip(&times)
         .map(|(name, time)| {

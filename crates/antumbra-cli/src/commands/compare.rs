@@ -53,7 +53,7 @@ pub(crate) fn run(arguments: &Compare) -> Result<()> {
     Ok(())
 }
 
-/// Scores mean little where raster and rays see different things.
+/// Scores mean little where raster and rays see different things, or where triangles were left out.
 fn warn(results: &Results) {
     let pixels = u64::from(results.resolution[0]) * u64::from(results.resolution[1]);
     let unexplained = results.truth.coverage_explained.get("unexplained").copied().unwrap_or(0);
@@ -63,6 +63,9 @@ fn warn(results: &Results) {
             "warning: raster and rays see different triangles in {unexplained} of {pixels} pixels, for no good \
              reason; do not trust these scores (is the scene of extreme size?)"
         );
+    }
+    for shortage in results.techniques.iter().filter_map(|t| t.shortage.as_ref()) {
+        let _ = writeln!(io::stderr(), "warning: {shortage}");
     }
 }
 

@@ -12,6 +12,7 @@ use antumbra_lab::{
     gpu::Gpu,
     lighting::Lighting,
     plane::Plane,
+    room::Room,
     stage::Stage,
 };
 use antumbra_truth::{CameraRays, Tracer};
@@ -69,6 +70,10 @@ pub(crate) fn run(arguments: &Render) -> Result<()> {
     }
     lighting.encode_picture(&mut encoder, &stage);
     gpu.finish(encoder)?;
+    let rooms = contestants.iter().filter_map(|c| Room::read(&gpu, &c.shadows).transpose());
+    for shortage in rooms.collect::<Result<Vec<_>>>()?.iter().filter_map(Room::shortage) {
+        let _ = writeln!(io::stderr(), "warning: {shortage}");
+    }
     let mut shares = Vec::new();
     let bytes = match (extension.as_str(), arguments.show) {
         ("exr", _) => lighting.read_visibility(&gpu)?.to_exr()?,

@@ -7,6 +7,7 @@ use crate::{
         AdapterFacts, BoundsFacts, CameraFacts, Family, Lifetime, LightFacts, MemoryItem, MemoryResult,
         SceneFacts, TechniqueResult, TimeResult, Work,
     },
+    room::Room,
 };
 use antumbra::{Memory, ShadowMap, technique};
 use antumbra_scene::Light;
@@ -17,7 +18,7 @@ pub(super) fn technique(shadows: &ShadowMap, rendered: Rendered, time: TimeResul
     let page = shadows.technique().page();
     let mut technique = shadows.technique().boxed();
     let settings = technique.parameters().iter().map(|p| (p.name.to_string(), value(&p.value()))).collect();
-    let Rendered { scores, classes, regions, images } = rendered;
+    let Rendered { scores, classes, regions, images, room } = rendered;
     TechniqueResult {
         name: page.name.into(),
         spec: technique::spec(shadows.technique()),
@@ -35,9 +36,18 @@ pub(super) fn technique(shadows: &ShadowMap, rendered: Rendered, time: TimeResul
         time,
         memory: memory(&shadows.memory()),
         work: Some(work(shadows)),
-        explain: shadows.explain(),
+        shortage: room.as_ref().and_then(Room::shortage),
+        explain: explain(shadows, room.as_ref()),
         images,
     }
+}
+
+/// What the library says of itself, and how much its lists held.
+fn explain(shadows: &ShadowMap, room: Option<&Room>) -> Vec<String> {
+    let held = room.map(|r| {
+        format!("lists held {} triangles, {:.2} per texel, at most {}", r.entries, r.mean(), r.longest)
+    });
+    shadows.explain().into_iter().chain(held).collect()
 }
 
 /// What a shadow map takes, as results say it.

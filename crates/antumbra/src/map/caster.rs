@@ -126,9 +126,10 @@ impl CasterMesh {
     pub fn draw_part(&self, view: &View, pass: &mut wgpu::RenderPass<'_>, triangles: Range<u32>) {
         let vertices = 3 * (1 + perspective(view));
         let (start, end) = (triangles.start.max(self.triangles.start), triangles.end.min(self.triangles.end));
-        if start < end {
-            pass.set_bind_group(1, &self.group, &[]);
+        if start >= end {
+            return;
         }
+        pass.set_bind_group(1, &self.group, &[]);
         let first = number(vertices / 3 * start..vertices / 3 * end);
         for start in (start..end).step_by(DRAWN_TOGETHER as usize) {
             let end = end.min(start.saturating_add(DRAWN_TOGETHER));

@@ -1,6 +1,10 @@
 //! What must hold before anything is created, so that wgpu has nothing to complain about.
 
-use super::{Options, lists::Room, uniforms};
+use super::{
+    Options,
+    lists::{ROW, Room},
+    uniforms,
+};
 use crate::{
     error::Unsupported,
     light::Size,
@@ -82,7 +86,7 @@ pub(super) fn caster(
 /// Whether the lists of all triangles fit.
 pub(super) fn lists(device: &wgpu::Device, technique: &dyn Technique, room: Room) -> Result<(), Unsupported> {
     let limits = device.limits();
-    let layers = room.per_texel.max(3).saturating_mul(room.views);
+    let layers = room.number_layers().max(3).saturating_mul(room.views);
     let max = limits.max_texture_array_layers;
     if !(1..=max).contains(&layers) {
         return Err(Unsupported::Layers { views: room.views, layers, max });
@@ -95,13 +99,20 @@ pub(super) fn lists(device: &wgpu::Device, technique: &dyn Technique, room: Room
         let what = format!("a storage binding of {bytes} bytes for the counts ({max} are possible)");
         return refused(what, format!("take at most {} texels", max / 4));
     }
-    let (rows, max) = (room.rows(), limits.max_texture_dimension_2d);
-    if !(1..=max).contains(&rows) {
-        let what = format!(
-            "corners of {} triangles in {rows} rows of 2048 (1 to {max} are possible)",
-            room.triangles
+    let max = limits.max_texture_dimension_2d;
+    if max < ROW {
+        return refused(
+            format!("textures of {ROW} texels ({max} are possible)"),
+            "take another technique".into(),
         );
-        return refused(what, format!("take 1 to {} triangles", u64::from(max) * 2048));
+    }
+    if room.rows() > max {
+        let what = format!(
+            "corners of {} triangles in {} rows of {ROW} ({max} are possible)",
+            room.triangles,
+            room.rows()
+        );
+        return refused(what, format!("take at most {} triangles", max * ROW));
     }
     Ok(())
 }

@@ -21,14 +21,14 @@ use wgpu::{
     ComputePipeline, RenderPass, RenderPipeline, ShaderStages, Texture, TextureFormat, TextureView,
 };
 
-/// Texels across of the textures of corners, triangles in a row.
-const ROW: u32 = 2048;
+/// Texels across and, at most, down of textures that are arrays, as in `lists.wgsl.in` and `exact.wgsl`.
+pub(super) const ROW: u32 = 2048;
 /// Texels of an invocation of `scan.wgsl`.
 const SEGMENT: u32 = 128;
 /// Invocations of its workgroups.
 const WORKGROUP: u32 = 64;
 /// Bytes of `ListTotals`.
-const TOTALS: u64 = 8;
+const TOTALS: u64 = 16;
 
 /// What a map has room for.
 #[derive(Debug, Clone, Copy)]
@@ -54,6 +54,11 @@ impl Room {
     fn entries(&self) -> u32 {
         (self.count_bytes() / 4 * u64::from(self.per_texel)).min(u64::from(u32::MAX)) as u32
     }
+
+    /// Layers of a view's numbers.
+    pub(super) fn number_layers(&self) -> u32 {
+        self.entries().div_ceil(ROW * ROW)
+    }
 }
 
 /// Rust side of `ListPass` in `lists.wgsl.in` and `scan.wgsl`.
@@ -69,7 +74,8 @@ struct ListPass {
 /// Pipelines, buffers and textures of the lists.
 #[derive(Debug)]
 pub(super) struct Lists {
-    pub(super) pipeline: RenderPipeline,
+    /// Under the sun, under a spot.
+    pipelines: [RenderPipeline; 2],
     scan: ComputePipeline,
     room: Room,
     views: Buffer,
@@ -104,7 +110,8 @@ impl Lists {
         let marks = buffer(device, "list marks", 4 * u64::from(room.triangles.div_ceil(32)), storage);
         let totals = buffer(device, "list totals", TOTALS * slots, storage);
         let Size { width, height } = room.size;
-        let layers = [2, room.per_texel, 3];
+        let layers = [2, room.number_layers(), 3];
+        let rows = room.entries().div_ceil(ROW).min(ROW);
         let texture = |i: usize, label, width, height, format| {
             let texture = device.create_texture(&wgpu::TextureDescriptor {
                 label: Some(label),
@@ -121,7 +128,7 @@ impl Lists {
         };
         let textures = [
             texture(0, "list ranges", width, height, TextureFormat::R32Uint),
-            texture(1, "list numbers", width, height, TextureFormat::R32Uint),
+            texture(1, "list numbers", ROW, rows, TextureFormat::R32Uint),
             texture(2, "list corners", ROW, room.rows(), TextureFormat::Rgba32Float),
         ];
         let (draw_layout, scan_layout) = (draw_layout(device), scan_layout(device));
@@ -163,11 +170,14 @@ impl Lists {
                 ],
             )
         };
-        let shader = shader::triangles(technique, &Capabilities::of(device), None);
+        let compiled = |spot| {
+            let shader = shader::triangles(technique, &Capabilities::of(device), None, Some(spot));
+            pipelines.caster(&shader, &[], |device| compile(device, &shader, &draw_layout, &[]))
+        };
         Self {
             draws: (0..room.views).map(|view| [draw(view, 0), draw(view, 1)]).collect(),
             scans: (0..room.views).map(scan).collect(),
-            pipeline: pipelines.caster(&shader, &[], |device| compile(device, &shader, &draw_layout, &[])),
+            pipelines: [compiled(false), compiled(true)],
             scan: compile_scan(device, &scan_layout),
             room,
             views,
@@ -188,8 +198,13 @@ impl Lists {
         wgsl: &str,
         user: &[&BindGroupLayout],
     ) -> RenderPipeline {
-        let shader = shader::triangles(technique, &Capabilities::of(device), Some(wgsl));
+        let shader = shader::triangles(technique, &Capabilities::of(device), Some(wgsl), None);
         compile(device, &shader, &draw_layout(device), user)
+    }
+
+    /// The pipeline for a view of this kind.
+    pub(super) fn pipeline(&self, view: &View) -> &RenderPipeline {
+        &self.pipelines[caster::perspective(view) as usize]
     }
 
     pub(super) fn write(&self, queue: &wgpu::Queue, views: &[View]) {
@@ -242,7 +257,7 @@ impl Lists {
                 occlusion_query_set: None,
                 multiview_mask: None,
             });
-            pass.set_pipeline(&self.pipeline);
+            pass.set_pipeline(self.pipeline(view));
             pass.set_bind_group(0, &self.draws[index][fills], &[]);
             caster::number_anew();
             draw(view, &mut pass);

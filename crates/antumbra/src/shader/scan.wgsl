@@ -1,5 +1,5 @@
 struct ListPass { view: u32, fills: u32, entries: u32, triangles: u32 }
-struct ListTotals { entries: atomic<u32>, triangles: atomic<u32> }
+struct ListTotals { entries: atomic<u32>, longest: atomic<u32>, triangles: atomic<u32>, padding: u32 }
 @group(0) @binding(0) var<uniform> list_pass: ListPass;
 @group(0) @binding(1) var<storage, read_write> list_counts: array<u32>;
 @group(0) @binding(2) var<storage, read_write> list_totals: array<ListTotals>;
@@ -18,9 +18,12 @@ const list_segment: u32 = 128u;
         return;
     }
     var length = 0u;
+    var longest = 0u;
     for (var i = start; i < end; i += 1u) {
         length += list_counts[i];
+        longest = max(longest, list_counts[i]);
     }
+    atomicMax(&list_totals[list_pass.view].longest, longest);
     var next = atomicAdd(&list_totals[list_pass.view].entries, length);
     for (var i = start; i < end; i += 1u) {
         let count = list_counts[i];

@@ -73,7 +73,11 @@ impl Technique for Exact {
         include_str!("exact.wgsl")
     }
     fn bias(&self) -> Bias {
-        Bias { constant_texels: 0.005, slope_texels: 0.005, ..Bias::NONE }
+        Bias { constant_texels: 0.005, slope_texels: 0.005, depth_steps: 8.0, ..Bias::NONE }
+    }
+    /// Distance of 32-bit floats below 1, where a spot's projected depths crowd.
+    fn depth_step(&self) -> f32 {
+        f32::EPSILON / 2.0
     }
     fn depth_space(&self) -> DepthSpace {
         DepthSpace::Raster

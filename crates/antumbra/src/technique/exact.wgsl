@@ -16,8 +16,7 @@ fn exact_depth(a: vec3f, b: vec3f, c: vec3f) -> f32 {
 
 /// Corner `k` of triangle `n`.
 fn exact_corner(corners: texture_2d_array<f32>, n: u32, view: u32, k: u32) -> vec3f {
-    let row = textureDimensions(corners).x;
-    return textureLoad(corners, vec2u(n % row, n / row), 3u * view + k, 0).xyz;
+    return textureLoad(corners, vec2u(n % 2048u, n / 2048u), 3u * view + k, 0).xyz;
 }
 
 /// 0 if any triangle of the list of the receiver's texel is between it and the light, else 1. `depth` is
@@ -29,8 +28,8 @@ fn exact_visibility(ranges: texture_2d_array<u32>, numbers: texture_2d_array<u32
     let end = textureLoad(ranges, texel, 2u * view + 1u, 0).x;
     let layers = textureNumLayers(numbers) / (textureNumLayers(ranges) / 2u);
     for (var i = textureLoad(ranges, texel, 2u * view, 0).x; i < end; i += 1u) {
-        let row = i / size.x;
-        let n = textureLoad(numbers, vec2u(i % size.x, row % size.y), layers * view + row / size.y, 0).x;
+        let row = i / 2048u;
+        let n = textureLoad(numbers, vec2u(i % 2048u, row % 2048u), layers * view + row / 2048u, 0).x;
         let ray = vec3f(point, 0.0);
         let a = exact_corner(corners, n, view, 0u) - ray;
         let b = exact_corner(corners, n, view, 1u) - ray;
