@@ -10,7 +10,7 @@
 //!
 //! What Lecocq et al. 2014, "Sub-Pixel Shadow Mapping", §3.1, call intractable.
 
-use super::{Bias, Binding, Caster, DepthSpace, Family, List, Map, Page, Technique};
+use super::{BiasTerms, Binding, Caster, DepthSpace, Family, List, Map, Page, Technique};
 use crate::{
     capabilities::Capabilities,
     error::Unsupported,
@@ -72,8 +72,8 @@ impl Technique for Exact {
     fn wgsl(&self) -> &'static str {
         include_str!("exact.wgsl")
     }
-    fn bias(&self) -> Bias {
-        Bias { constant_texels: 0.005, slope_texels: 0.005, depth_steps: 8.0, ..Bias::NONE }
+    fn bias(&self) -> BiasTerms {
+        BiasTerms { constant_texels: 0.005, slope_texels: 0.005, depth_steps: 8.0, ..BiasTerms::NONE }
     }
     /// Distance of 32-bit floats below 1, where a spot's projected depths crowd.
     fn depth_step(&self) -> f32 {

@@ -9,7 +9,7 @@
 //! Dai, Yang, Feng 2008, "Reconstructable Geometry Shadow Maps".
 
 use super::{
-    Bias, Binding, Caster, Constant, Coverage, DepthSpace, Encode, Family, Map, Page, Technique,
+    BiasTerms, Binding, Caster, Constant, Coverage, DepthSpace, Encode, Family, Map, Page, Technique,
     spsm::Packing,
 };
 use crate::{
@@ -106,8 +106,8 @@ impl Technique for Rgsm {
     fn parts(&self, _: &Capabilities) -> Vec<&'static str> {
         self.packing.parts()
     }
-    fn bias(&self) -> Bias {
-        Bias { constant_texels: 0.05, slope_texels: 0.05, ..Bias::NONE }
+    fn bias(&self) -> BiasTerms {
+        BiasTerms { constant_texels: 0.05, slope_texels: 0.05, ..BiasTerms::NONE }
     }
     fn depth_space(&self) -> DepthSpace {
         DepthSpace::Raster
