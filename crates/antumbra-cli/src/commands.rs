@@ -15,6 +15,7 @@ mod compare;
 mod curve;
 mod export;
 mod info;
+mod kernels;
 mod maps;
 mod render;
 mod reproduce;
@@ -27,6 +28,7 @@ pub(crate) fn run(arguments: Arguments) -> Result<()> {
         Command::Render(arguments) => render::run(&arguments),
         Command::Bench(arguments) => bench::run(&arguments),
         Command::Bias(arguments) => bias::run(&arguments),
+        Command::Kernels(arguments) => kernels::run(&arguments),
         Command::Curve(arguments) => curve::run(&arguments),
         Command::Maps(arguments) => maps::run(&arguments),
         Command::Reproduce(arguments) => reproduce::run(&arguments),
