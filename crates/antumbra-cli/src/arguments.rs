@@ -29,6 +29,8 @@ pub(crate) enum Command {
     /// Measure what biases cost and give: acne, detached shadows, error
     #[command(after_help = BIAS_EXAMPLES)]
     Bias(Bias),
+    /// Error and cost over kernel widths
+    Kernels(Kernels),
     /// Plot how techniques reconstruct the step of the shadow test
     #[command(after_help = CURVE_EXAMPLES)]
     Curve(Curve),
@@ -102,7 +104,7 @@ const REPRODUCE_EXAMPLES: &str = "Examples:
 What was measured is kept in the folder: run the same command again after an interruption and it goes on.";
 
 /// The scene and how it is seen.
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 pub(crate) struct SceneArguments {
     /// A .glb, .gltf or .obj file, or the name of a built-in scene (see `antumbra scenes`)
     #[arg(default_value = "fence")]
@@ -286,6 +288,27 @@ const SETTINGS: [&str; 10] = [
     "normal_offset_texels=2",
     "receiver_plane=1",
 ];
+
+#[derive(Debug, Args)]
+pub(crate) struct Kernels {
+    #[command(flatten)]
+    pub(crate) scene: SceneArguments,
+    /// Widths of the kernel, texels; techniques that do not take one (many want odd ones) are left out there
+    #[arg(long, num_args = 1.., default_values_t = [2, 3, 4, 5, 7, 9, 11, 13, 15, 16], value_name = "TEXELS")]
+    pub(crate) kernels: Vec<u32>,
+    /// Techniques with settings
+    #[arg(long, num_args = 1.., default_values = ["pcf", "pcf.taps=bilinear", "esm"], value_name = "TECHNIQUE")]
+    pub(crate) techniques: Vec<String>,
+    /// Frames that are timed, per technique
+    #[arg(long, default_value_t = 5)]
+    pub(crate) rounds: u32,
+    /// Rays per pixel of the screen-space ideal, along one side
+    #[arg(long, default_value_t = 4)]
+    pub(crate) grid: u32,
+    /// Print the rows as JSON instead of a table
+    #[arg(long)]
+    pub(crate) json: bool,
+}
 
 #[derive(Debug, Args)]
 pub(crate) struct Curve {

@@ -16,6 +16,7 @@ mod curve;
 mod export;
 mod flicker;
 mod info;
+mod kernels;
 mod maps;
 mod render;
 mod reproduce;
@@ -29,6 +30,7 @@ pub(crate) fn run(arguments: Arguments) -> Result<()> {
         Command::Flicker(arguments) => flicker::run(&arguments),
         Command::Bench(arguments) => bench::run(&arguments),
         Command::Bias(arguments) => bias::run(&arguments),
+        Command::Kernels(arguments) => kernels::run(&arguments),
         Command::Curve(arguments) => curve::run(&arguments),
         Command::Maps(arguments) => maps::run(&arguments),
         Command::Reproduce(arguments) => reproduce::run(&arguments),

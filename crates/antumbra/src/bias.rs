@@ -159,3 +159,43 @@ impl BiasTerms {
         ]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::technique::all;
+
+    #[test]
+    fn biases_are_read_back_as_written() {
+        let terms = BiasTerms { slope_texels: 0.25, receiver_plane: 1.0, ..BiasTerms::NONE };
+        for bias in [Bias::Auto, Bias::NONE, terms.into(), BiasTerms::TEXELS.into()] {
+            assert_eq!(bias.to_string().parse::<Bias>().unwrap(), bias);
+        }
+        assert_eq!(Bias::Fixed(terms).to_string(), "slope_texels=0.25,receiver_plane=1");
+    }
+
+    #[test]
+    fn unreadable_ones_are_refused_by_name() {
+        for (text, says) in [
+            ("", "no '='"),
+            ("some", "no '='"),
+            ("slope=1", "only constant_texels"),
+            ("slope_texels=x", "'x' is no number"),
+            ("slope_texels=inf", "finite"),
+            ("auto,slope_texels=1", "no '='"),
+        ] {
+            let error = text.parse::<Bias>().unwrap_err().to_string();
+            assert!(error.contains(says), "{error}");
+        }
+    }
+
+    #[test]
+    fn comparisons_alone_are_biased_by_rounding() {
+        for technique in all() {
+            let terms = Bias::Auto.terms(technique.as_ref());
+            let compares = technique.page().family == crate::technique::Family::Comparison;
+            assert_eq!(terms.depth_steps > 0.0 && terms.receiver_plane >= 1.0, compares, "{technique:?}");
+            assert_eq!(Bias::NONE.terms(technique.as_ref()), BiasTerms::NONE);
+        }
+    }
+}

@@ -1,0 +1,120 @@
+//! `antumbra kernels`: error and cost over kernel widths.
+
+use super::table;
+use crate::{arguments::Kernels, progress::Bar, scene};
+use antumbra::technique;
+use antumbra_lab::{
+    compare::{self, Request},
+    gpu::Gpu,
+    results::TechniqueResult,
+    timing,
+};
+use anyhow::{Result, bail};
+use serde::Serialize;
+use std::io::{self, Write};
+
+/// One technique with one kernel.
+#[derive(Debug, Serialize)]
+struct Row {
+    kernel: u32,
+    technique: String,
+    rmse_light_space: f64,
+    rmse_screen_space: f64,
+    /// Passes between casting and lighting, milliseconds.
+    filter_ms: f64,
+    lookup_ms: f64,
+    frame_ms: f64,
+    lookups: u32,
+    bytes_per_texel: f64,
+}
+
+impl Row {
+    fn new(kernel: u32, result: &TechniqueResult) -> Self {
+        let ms = |name| timing::pass_ms(&result.time, name).unwrap_or(0.0);
+        let work = result.work.as_ref();
+        Self {
+            kernel,
+            technique: result.spec.clone(),
+            rmse_light_space: result.scores.light_space.rmse,
+            rmse_screen_space: result.scores.screen_space.rmse,
+            filter_ms: ["convert", "blur", "mips", "sum"].map(ms).iter().sum(),
+            lookup_ms: ms("lookup"),
+            frame_ms: result.time.frame.median_ms,
+            lookups: work.map_or(0, |w| w.lookups),
+            bytes_per_texel: work.map_or(0.0, |w| w.bytes_per_texel_with_mips),
+        }
+    }
+
+    fn cells(&self) -> Vec<String> {
+        vec![
+            self.kernel.to_string(),
+            self.technique.clone(),
+            format!("{:.4}", self.rmse_light_space),
+            format!("{:.4}", self.rmse_screen_space),
+            format!("{:.1}", self.filter_ms),
+            format!("{:.1}", self.lookup_ms),
+            format!("{:.1}", self.filter_ms + self.lookup_ms),
+            format!("{:.1}", self.frame_ms),
+            self.lookups.to_string(),
+            format!("{:.1}", self.bytes_per_texel),
+        ]
+    }
+}
+
+pub(crate) fn run(arguments: &Kernels) -> Result<()> {
+    if arguments.rounds == 0 {
+        bail!("--rounds 0: at least 1 frame has to be timed");
+    }
+    let mut rows = Vec::new();
+    scene::check(&arguments.scene)?;
+    let setting = scene::load(&arguments.scene)?;
+    let gpu = Gpu::new()?;
+    for &kernel in &arguments.kernels {
+        let scene = crate::arguments::SceneArguments { kernel, ..arguments.scene.clone() };
+        scene::check(&scene)?;
+        // Some kernels are odd only.
+        let takes = |spec: &&String| compare::techniques(&[(*spec).clone()], kernel).is_ok();
+        let specs: Vec<String> = arguments.techniques.iter().filter(takes).cloned().collect();
+        for spec in &arguments.techniques {
+            technique::parse(spec)?;
+        }
+        let request = Request {
+            scene: setting.name.clone(),
+            geometry: setting.geometry.clone(),
+            camera: setting.camera,
+            light: setting.light,
+            techniques: compare::techniques(&specs, kernel)?,
+            map_size: scene.size,
+            kernel,
+            resolution: setting.resolution,
+            grid: arguments.grid,
+            rounds: arguments.rounds,
+            command: Vec::new(),
+        };
+        if request.techniques.is_empty() {
+            continue;
+        }
+        let comparison = compare::compare(&gpu, &request, &Bar::new())?;
+        rows.extend(comparison.results.techniques.iter().map(|result| Row::new(kernel, result)));
+    }
+    let out = &mut io::stdout();
+    if arguments.json {
+        writeln!(out, "{}", serde_json::to_string_pretty(&rows)?)?;
+        return Ok(());
+    }
+    let cells: Vec<Vec<String>> = rows.iter().map(Row::cells).collect();
+    let header = [
+        "kernel",
+        "technique",
+        "RMSE light space",
+        "RMSE screen space",
+        "filter ms",
+        "lookup ms",
+        "both",
+        "frame ms",
+        "lookups",
+        "B/texel",
+    ];
+    table::print(out, &header, &cells)?;
+    Ok(())
+}

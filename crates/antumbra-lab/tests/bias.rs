@@ -1,0 +1,97 @@
+//! The automatic bias: no acne, shadows that begin where casters touch, no more error than with the best
+//! of the fixed biases. Each bound is also given biases that it must reject.
+
+#![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
+
+use antumbra::technique::Bias;
+use antumbra_lab::{
+    bias::{self, Request, Row},
+    compare::{self, Silent},
+    gpu::Gpu,
+};
+use antumbra_scene::procedural;
+use antumbra_testing::Trials;
+
+/// Most acne: share of the fully lit pixels.
+const ACNE: f64 = 2e-4;
+/// Most that shadows may retreat from what casts them where it touches, texels.
+const DETACHED: f64 = 1.0;
+/// Most error, times that with the best fixed bias.
+const WORSE: f64 = 1.1;
+
+/// What users of other programs set.
+const FIXED: [&str; 7] = [
+    "constant_texels=1",
+    "constant_texels=2",
+    "slope_texels=1",
+    "slope_texels=2",
+    "normal_offset_texels=1",
+    "receiver_plane=1",
+    "constant_texels=1,slope_texels=2",
+];
+
+fn main() {
+    let mut trials = Trials::default();
+    for scene in ["contact", "spheres", "spot", "brabec"] {
+        trials.add(format!("{scene}: no technique shadows what is lit"), move |gpu| {
+            for row in study(gpu, scene, &["all-comparison"], &["auto"]) {
+                assert!(row.acne <= ACNE, "{row:?}");
+            }
+        });
+        trials.add(format!("{scene}: no fixed bias errs less"), move |gpu| {
+            let settings: Vec<&str> = [["auto"].as_slice(), &FIXED].concat();
+            for rows in study(gpu, scene, &["hard", "pcf"], &settings).chunks(settings.len()) {
+                let best = rows[1..].iter().map(|row| row.rmse).fold(f64::INFINITY, f64::min);
+                assert!(rows[0].rmse <= WORSE * best, "{:?}, best {best}", rows[0]);
+                assert!(rows[1].rmse > WORSE * best, "any bias would do: {:?}", rows[1]);
+            }
+        });
+    }
+    trials.add("contact: shadows begin where casters touch", |gpu| {
+        for row in study(gpu, "contact", &["all-comparison"], &["auto"]) {
+            assert!(row.detached_texels.unwrap() <= DETACHED, "{row:?}");
+        }
+    });
+    trials.add("rejected: too little and too much", |gpu| {
+        let settings = ["none", "receiver_plane=1", "constant_texels=4", "normal_offset_texels=4"];
+        let [none, plane, far, aside] = study(gpu, "contact", &["hard"], &settings).try_into().unwrap();
+        assert!(none.acne > ACNE && plane.acne > ACNE, "{none:?} {plane:?}");
+        assert!(far.detached_texels.unwrap() > DETACHED && aside.detached_texels.unwrap() > DETACHED);
+        // A constant bias detaches shadows by itself.
+        assert!((far.detached_texels.unwrap() - 4.0).abs() < 0.5, "{far:?}");
+    });
+    trials.add("rejected: rounding of floats left out", |gpu| {
+        // The floor of this scene lies at the far end of a long range of projected depths.
+        let terms = "constant_texels=0.05,slope_texels=0.05,receiver_plane=1";
+        let settings = [terms.to_string(), format!("{terms},depth_steps=0.5")];
+        let rows = study(gpu, "spot", &["hard"], &settings.each_ref().map(String::as_str));
+        assert!(rows[0].acne > 10.0 * rows[1].acne && rows[0].acne > ACNE, "{rows:?}");
+    });
+    trials.add("coarse depths are covered", |gpu| {
+        let specs = ["hard.precision=16", "hard.precision=12", "pcf.precision=12"];
+        for row in study(gpu, "contact", &specs, &["auto"]) {
+            assert!(row.acne <= ACNE, "{row:?}");
+        }
+        let terms = "constant_texels=0.05,slope_texels=0.3,normal_offset_texels=0.25,receiver_plane=1.3";
+        let [row] = study(gpu, "contact", &["hard.precision=8"], &[terms]).try_into().unwrap();
+        assert!(row.acne > ACNE, "without steps: {row:?}");
+    });
+    trials.run();
+}
+
+fn study(gpu: &antumbra_testing::Gpu, scene: &str, techniques: &[&str], settings: &[&str]) -> Vec<Row> {
+    let gpu = Gpu::adopt(gpu.device.clone(), gpu.queue.clone(), gpu.info.clone());
+    let scene = procedural::by_name(scene).unwrap().scene(1);
+    let specs: Vec<String> = techniques.iter().map(|spec| spec.to_string()).collect();
+    let settings: Vec<Bias> = settings.iter().map(|text| text.parse().unwrap()).collect();
+    let request = Request {
+        geometry: &scene.flatten(),
+        camera: &scene.main_camera(),
+        light: &scene.main_light(),
+        techniques: &compare::techniques(&specs, 5).unwrap(),
+        settings: &settings,
+        map_size: 512,
+        resolution: [256, 192],
+    };
+    bias::study(&gpu, &request, &Silent).unwrap()
+}
