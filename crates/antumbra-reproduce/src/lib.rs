@@ -23,6 +23,7 @@ pub mod raster;
 pub mod results;
 mod run;
 mod slides;
+mod spsm;
 pub mod study;
 pub mod target;
 pub mod verdict;

@@ -32,7 +32,8 @@ pub struct Source {
 }
 
 /// Everything that can be reproduced.
-pub const SOURCES: &[Source] = &[crate::slides::SOURCE, crate::csm::SOURCE, crate::esm::SOURCE];
+pub const SOURCES: &[Source] =
+    &[crate::slides::SOURCE, crate::csm::SOURCE, crate::esm::SOURCE, crate::spsm::SOURCE];
 
 /// Every target.
 pub fn all() -> impl Iterator<Item = &'static Target> {
