@@ -8,6 +8,7 @@ use antumbra_lab::{
     flicker::{self, Promise, Request, Results, TechniqueFlicker},
     gpu::Gpu,
     motion::Path,
+    stage::Stage,
 };
 use antumbra_scene::{Camera, procedural};
 use antumbra_testing::{Trials, broken::Broken};
@@ -60,6 +61,26 @@ fn main() {
     trials.add("what_recedes_is_judged_by_its_mean_over_pixels", |gpu| {
         let results = run(gpu, &request("contact", Path::Recede, &["hard", "csm.terms=4"]));
         assert!(results.techniques.iter().all(|t| t.promise == Promise::ScreenSpace));
+    });
+    trials.add("a_stage_that_looks_elsewhere_draws_what_a_new_one_draws", |gpu| {
+        let (gpu, scene) = (adopt(gpu), request("spheres", Path::Both, &[]));
+        let frames = Path::Both.frames(&scene.camera, &scene.light, 2).unwrap();
+        let stage = |camera: &Camera, light| {
+            Stage::new(&gpu, &scene.geometry, camera, light, scene.resolution).unwrap()
+        };
+        let draw = |stage: &Stage| {
+            let mut encoder = gpu.device.create_command_encoder(&Default::default());
+            stage.encode_surfaces(&mut encoder, None);
+            gpu.finish(encoder).unwrap();
+            stage.surfaces().read_positions(&gpu).unwrap()
+        };
+        let mut moved = stage(&frames[0].camera, &frames[0].light);
+        let before = draw(&moved);
+        let there = stage(&frames[1].camera, &frames[1].light);
+        assert_eq!(moved.camera_matrix_of(&frames[1].camera, &frames[1].light), there.camera_matrix());
+        moved.look(&gpu, &frames[1].camera, &frames[1].light);
+        assert_eq!(moved.camera_matrix(), there.camera_matrix());
+        assert!(draw(&moved) == draw(&there) && draw(&moved) != before);
     });
     trials.add("bad_requests_are_refused_by_name", |gpu| {
         let good = || request("contact", Path::Both, &["hard"]);

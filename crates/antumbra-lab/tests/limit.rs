@@ -5,7 +5,7 @@
 
 mod common;
 
-use antumbra::{Technique, View};
+use antumbra::{Technique, View, technique::Bias};
 use antumbra_lab::{compare, plane::Plane};
 use antumbra_scene::{Light, procedural};
 use antumbra_testing::{Gpu, Trials};
@@ -67,7 +67,7 @@ impl Differences {
         let mut shot = Shot::new(gpu, &scene, RESOLUTION);
         let technique = compare::techniques(&[spec.into()], 5).unwrap().remove(0);
         let technique: &dyn Technique = technique.as_ref();
-        let (maps, view) = shot.maps(&[technique], size, None);
+        let (maps, view) = shot.maps(&[technique], size, Bias::Auto);
         let answer = shot.visibility(&maps[0]);
         let tracer = Tracer::new(&shot.geometry).unwrap();
         let hits = tracer.primary(&shot.rays());

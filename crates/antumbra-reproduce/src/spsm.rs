@@ -2,6 +2,7 @@
 
 use crate::target::{Source, Target};
 
+mod motion;
 mod quality;
 mod speed;
 
@@ -71,6 +72,16 @@ pub(crate) const SOURCE: Source = Source {
             ours: "The scene trees, 640×480 pixels. Fusion is darkening where rays say light, over all lit pixels.",
             seconds: [30, 6],
             run: quality::figure_15,
+        },
+        Target {
+            id: "spsm/flicker",
+            title: "Flicker of moving cameras and lights",
+            paper: "Moving the light highlights the high temporal consistency of SPSM, shown in a video: there is no number.",
+            ours: "The scenes contact, spheres and tangle with 1024² maps, 480×360 pixels, the camera turning 8° while the \
+                   light turns 5°. Flicker is the mean |Δv − Δv_truth| of a pixel from frame to frame, every frame being \
+                   traced.",
+            seconds: [180, 20],
+            run: motion::flicker,
         },
     ],
 };

@@ -277,7 +277,7 @@ impl ShadowMap {
         let last = self.jitter.len() - 1;
         for view in 0..self.views.len() {
             if let Some(lists) = &self.lists {
-                let (depth, seen) = (self.textures.caster_target(view), &self.views[view]);
+                let (depth, seen) = (self.textures.caster_target(view, 0), &self.views[view]);
                 lists.encode(encoder, (view, seen), depth, probe, &mut draw);
                 continue;
             }

@@ -65,9 +65,10 @@ fn enough(errors: &[f64], limit: f64) -> Option<usize> {
 fn many(esm: &str, needed: Option<u32>, paper: u32) -> Verdict {
     let (what, samples) = match needed {
         Some(n) => ("samples whose error is not larger than the ESM's".to_string(), n),
-        None => {
-            ("samples that do not suffice yet, the most that were tried".to_string(), BUDGETS[BUDGETS.len() - 1])
-        }
+        None => (
+            "samples that do not suffice yet, the most that were tried".to_string(),
+            BUDGETS[BUDGETS.len() - 1],
+        ),
     };
     Verdict::new(
         format!("PCF needs {paper} samples or more to match {esm}"),

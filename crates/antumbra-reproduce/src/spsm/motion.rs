@@ -1,0 +1,71 @@
+//! Flicker along a path of camera and light.
+
+use crate::{
+    bench::Bench,
+    page::{Cell, Page, Table, Unit},
+    verdict::{Verdict, at_most},
+};
+use antumbra_lab::{
+    flicker::{Promise, ROW_FILE, STRIP_FILE},
+    motion::Path,
+};
+use anyhow::Result;
+
+const SPECS: [&str; 2] = ["hard", "spsm"];
+/// Scenes with their number of frames.
+const SCENES: [(&str, u32); 3] = [("contact", 120), ("spheres", 120), ("tangle", 40)];
+/// Flicker over that of a standard map that is called calm.
+const HALF: f64 = 0.5;
+
+pub(super) fn flicker(bench: &Bench<'_>) -> Result<Page> {
+    let mut page = Page::default();
+    let mut table = Table::new(
+        "Flicker against the hard truth, mean per pixel and frame. In the picture: the same pixel in both frames. On \
+         surfaces: the same point.",
+        &["scene and technique", "in the picture", "over hard", "on surfaces", "over hard"],
+    );
+    for (scene, frames) in SCENES {
+        let shot = bench.shot(scene, [480, 360]);
+        let moving = bench.moving(shot, Path::Both, frames, bench.map(1024), &SPECS)?;
+        let mut ratio = None;
+        for spec in SPECS {
+            let technique = moving.technique(spec)?;
+            let [picture, surface] = [&technique.flicker, &technique.crawl].map(|m| m.get(&Promise::Hard));
+            let cells = [picture, surface].map(|measured| {
+                let over = measured.and_then(|m| m.ratio_to_hard);
+                [Cell::ours(measured.map(|m| m.mean), Unit::Number), Cell::ours(over, Unit::Times)]
+            });
+            table.row(format!("{scene}, {frames} frames: {spec}"), cells.concat());
+            ratio = picture.and_then(|m| m.ratio_to_hard);
+        }
+        page.verdict(calm(scene, ratio));
+        let tiles = vec![moving.tile(STRIP_FILE, "six frames")?, moving.tile(ROW_FILE, "row over time")?];
+        page.pictures(
+            format!("The scene {scene}, and one row of its pixels over time, downwards."),
+            1,
+            tiles,
+        );
+    }
+    page.blocks.insert(0, crate::page::Block::Table(table));
+    Ok(page)
+}
+
+fn calm(scene: &str, ratio: Option<f64>) -> Verdict {
+    Verdict::new(
+        format!("SPSM flicker at most half as much as standard shadow maps (scene {scene})"),
+        [at_most("flicker of SPSM over that of a standard map", ratio, "a half", HALF)],
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::verdict::Outcome::{Differs, Holds, Open};
+
+    #[test]
+    fn verdicts_follow_their_numbers() {
+        assert_eq!(calm("s", Some(0.3)).outcome(), Holds);
+        assert_eq!(calm("s", Some(0.6)).outcome(), Differs);
+        assert_eq!(calm("s", None).outcome(), Open);
+    }
+}
