@@ -67,8 +67,10 @@ pub struct Request {
     pub light: Light,
     /// How they move.
     pub path: Path,
-    /// Number of frames.
+    /// Number of frames of the whole path.
     pub frames: u32,
+    /// Frames that are measured, from the first; 2 or more. Few steps of a long path are as small as all.
+    pub until: u32,
     /// The entrants, in order.
     pub techniques: Vec<Box<dyn Technique>>,
     /// Texels along one side of each map.
@@ -100,7 +102,11 @@ pub struct Outcome {
 /// Numbers out of range, settings that the device cannot do, a camera that sees nothing, a lost device.
 pub fn measure(gpu: &Gpu, request: &Request, progress: &dyn Progress) -> Result<Outcome> {
     let start = Instant::now();
-    let frames = request.path.frames(&request.camera, &request.light, request.frames)?;
+    let mut frames = request.path.frames(&request.camera, &request.light, request.frames)?;
+    if !(2..=request.frames).contains(&request.until) {
+        bail!("{} measured frames: allowed are 2 to the {} of the path", request.until, request.frames);
+    }
+    frames.truncate(request.until as usize);
     if request.techniques.is_empty() {
         bail!("no technique to measure");
     }
@@ -176,7 +182,7 @@ pub fn measure(gpu: &Gpu, request: &Request, progress: &dyn Progress) -> Result<
         triangles: geometry.triangle_count() as u64,
         path: request.path.name().into(),
         motion: request.path.description().into(),
-        frames: request.frames,
+        frames: request.until,
         resolution: request.resolution,
         map_size: request.map_size,
         kernel_texels: request.kernel,

@@ -17,7 +17,7 @@ fn main() {
     let mut trials = Trials::default();
     trials.add("sub_pixel_shadow_maps_hardly_flicker_where_polygons_are_large", |gpu| {
         let both = request("contact", Path::Both, &["hard", "spsm"]);
-        let results = run(gpu, &Request { resolution: [240, 180], frames: 9, ..both });
+        let results = run(gpu, &Request { resolution: [240, 180], frames: 9, until: 9, ..both });
         let ratio = of(&results, "spsm").ratio_to_hard.unwrap();
         // Measured: 0.027.
         assert!(ratio < 0.05, "{ratio}");
@@ -90,6 +90,8 @@ fn main() {
         };
         refused(Request { frames: 1, ..good() }, "1 frames show no motion");
         refused(Request { frames: 0, ..good() }, "allowed are 2 to 10000");
+        refused(Request { until: 6, ..good() }, "6 measured frames: allowed are 2 to the 5");
+        refused(Request { until: 1, ..good() }, "1 measured frames");
         refused(Request { stride: 0, ..good() }, "a stride of 0 pixels");
         refused(Request { stride: 73, ..good() }, "allowed are 1 to 72");
         refused(Request { techniques: Vec::new(), ..good() }, "no technique");
@@ -123,6 +125,7 @@ fn request(scene: &str, path: Path, techniques: &[&str]) -> Request {
         geometry: scene.flatten(),
         path,
         frames: 5,
+        until: 5,
         techniques: techniques.iter().map(|spec| technique::parse(spec).unwrap()).collect(),
         map_size: 256,
         kernel: 5,
@@ -148,7 +151,7 @@ fn close_up(technique: Box<dyn Technique>) -> Request {
     let far = request("spheres", Path::Camera, &[]);
     let position = far.camera.target.lerp(far.camera.position, 0.5);
     let camera = Camera { position, ..far.camera };
-    Request { camera, frames: 9, techniques: vec![technique], ..far }
+    Request { camera, frames: 9, until: 9, techniques: vec![technique], ..far }
 }
 
 fn adopt(gpu: &antumbra_testing::Gpu) -> Gpu {

@@ -341,14 +341,25 @@ impl<'a> Bench<'a> {
         })
     }
 
-    /// Moves camera and light of a scene along `path`, traces every frame, and says how `specs` flicker;
-    /// few frames in a quick run.
+    /// Moves camera and light of a scene along a path of `frames`, traces the first `until` of them, and
+    /// says how `specs` flicker. A quick run takes the whole path in 4 frames, a part of it in 3.
     ///
     /// # Errors
     /// As [`study`](Self::study).
-    pub fn moving(&self, shot: Shot, path: Path, frames: u32, map: u32, specs: &[&str]) -> Result<Moving> {
-        let frames = if self.quick { 4 } else { frames };
-        self.cache.memo(&("moving", shot, path.name(), frames, map, specs), || {
+    pub fn moving(
+        &self,
+        shot: Shot,
+        path: Path,
+        [frames, until]: [u32; 2],
+        map: u32,
+        specs: &[&str],
+    ) -> Result<Moving> {
+        let [frames, until] = match (self.quick, until < frames) {
+            (true, true) => [frames, 3],
+            (true, false) => [4, 4],
+            (false, _) => [frames, until],
+        };
+        self.cache.memo(&("moving", shot, path.name(), [frames, until], map, specs), || {
             let scene = self.scene(shot.scene)?;
             let request = flicker::Request {
                 scene: shot.scene.into(),
@@ -357,6 +368,7 @@ impl<'a> Bench<'a> {
                 light: scene.light,
                 path,
                 frames,
+                until,
                 techniques: parse(specs)?,
                 map_size: map,
                 kernel: 5,

@@ -7,7 +7,7 @@ use crate::{
     target::{Source, Target},
 };
 use antumbra::technique;
-use antumbra_lab::{compare, metrics::Score, results::TimeResult};
+use antumbra_lab::{compare, metrics::Score, motion::Path, results::TimeResult};
 use antumbra_scene::procedural;
 use anyhow::{Context, Result};
 
@@ -20,13 +20,19 @@ pub(crate) const SOURCE: Source = Source {
         paper: "Nobody has published one table that scores percentage-closer filtering, variance, convolution, \
                 exponential, moment and sub-pixel shadow maps against ray-traced truth on common scenes.",
         ours: "All techniques with their default settings and a kernel of 5 texels, maps of 1024², pictures of 512×384 \
-               pixels, on all built-in scenes (a quick run: on the smallest).",
-        seconds: [500, 90],
+               pixels, on all built-in scenes (a quick run: on the smallest). Flicker: six frames of 256×192 pixels \
+               with maps of 512², the first of 120 in which the camera turns 8° while the light turns 5°.",
+        seconds: [700, 100],
         run,
     }],
 };
 
 const KERNEL: u32 = 5;
+/// Frames of the path on which flicker is measured, and how many of them are.
+const STEPS: [u32; 2] = [120, 6];
+/// Pixels of those frames, and texels of their maps.
+const SMALL: [u32; 2] = [256, 192];
+const SMALL_MAP: u32 = 512;
 /// A quick run leaves larger scenes out.
 const QUICK_TRIANGLES: usize = 5_000;
 
@@ -36,6 +42,8 @@ struct Measured<'a> {
     hard: &'a Score,
     light_space: &'a Score,
     screen_space: &'a Score,
+    /// Flicker over that of the standard map, each against its own truth.
+    flicker: Option<f64>,
     /// Frame time over that of the standard map.
     time: f64,
     bytes: u64,
@@ -73,6 +81,15 @@ const QUANTITIES: &[Quantity] = &[
     (ERRORS[2], SMOOTH, "RMSE", "Error to 16 rays per pixel", Unit::Number, false, |m| {
         Some(m.screen_space.rmse)
     }),
+    (
+        "flicker",
+        "Motion",
+        "Flicker",
+        "Change of the error from frame to frame over that of the standard map, each against what it promises",
+        Unit::Times,
+        false,
+        |m| m.flicker,
+    ),
     (TIME, COST, "Time", "Frame time over that of the standard map", Unit::Times, false, |m| Some(m.time)),
     ("bytes", COST, "Memory", "Textures and buffers that lookups need", Unit::Bytes, false, |m| {
         Some(m.bytes as f64)
@@ -139,6 +156,8 @@ fn scene_values(bench: &Bench<'_>, study: &Study, specs: &[&str]) -> Result<Vec<
     let entrants: Vec<(u32, &str)> = specs.iter().map(|spec| (study.map, *spec)).collect();
     let times = bench.race(study.shot, &entrants, bench.rounds(3))?;
     let hard = specs.iter().position(|s| *s == "hard").context("the standard shadow map is missing")?;
+    let small = bench.shot(study.shot.scene, SMALL);
+    let moving = bench.moving(small, Path::Both, STEPS, bench.map(SMALL_MAP), specs)?;
     let median = |time: &TimeResult| time.frame.median_ms;
     let mut all = Vec::new();
     for ((spec, look), time) in specs.iter().zip(&study.looks).zip(&times) {
@@ -150,6 +169,7 @@ fn scene_values(bench: &Bench<'_>, study: &Study, specs: &[&str]) -> Result<Vec<
             hard: &scores[0],
             light_space: &scores[1],
             screen_space: &scores[2],
+            flicker: moving.technique(spec)?.ratio_to_hard,
             time: median(time) / median(&times[hard]),
             bytes: look.memory.kept_bytes,
         };

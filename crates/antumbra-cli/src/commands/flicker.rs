@@ -41,6 +41,7 @@ pub(crate) fn run(arguments: &Flicker) -> Result<()> {
         light: setting.light,
         path: path(arguments.path),
         frames: arguments.frames,
+        until: arguments.frames,
         techniques,
         map_size: arguments.scene.size,
         kernel: arguments.scene.kernel,

@@ -104,7 +104,7 @@ pub struct Results {
     pub path: String,
     /// What moved.
     pub motion: String,
-    /// Number of frames.
+    /// Number of frames that were measured.
     pub frames: u32,
     /// Pixels across and down.
     pub resolution: [u32; 2],

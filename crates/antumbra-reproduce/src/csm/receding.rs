@@ -18,7 +18,7 @@ const FRAMES: u32 = 48;
 
 pub(super) fn figure_10(bench: &Bench<'_>) -> Result<Page> {
     let shot = bench.shot("fence", [480, 360]);
-    let moving = bench.moving(shot, Path::Recede, FRAMES, bench.map(1024), &SPECS)?;
+    let moving = bench.moving(shot, Path::Recede, [FRAMES; 2], bench.map(1024), &SPECS)?;
     let mut page = Page::default();
     let mut table = Table::new(
         "Flicker: mean change of a pixel's error from frame to frame, the truth being the mean of 16 rays per pixel. \

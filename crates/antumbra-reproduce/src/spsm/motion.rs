@@ -26,7 +26,7 @@ pub(super) fn flicker(bench: &Bench<'_>) -> Result<Page> {
     );
     for (scene, frames) in SCENES {
         let shot = bench.shot(scene, [480, 360]);
-        let moving = bench.moving(shot, Path::Both, frames, bench.map(1024), &SPECS)?;
+        let moving = bench.moving(shot, Path::Both, [frames; 2], bench.map(1024), &SPECS)?;
         let mut ratio = None;
         for spec in SPECS {
             let technique = moving.technique(spec)?;
