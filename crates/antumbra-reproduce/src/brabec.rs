@@ -11,6 +11,8 @@ use crate::{
 };
 use anyhow::Result;
 
+mod depths;
+
 pub(crate) const SOURCE: Source = Source {
     key: "brabec",
     name: "Brabec and Seidel 2001, Hardware-accelerated rendering of antialiased shadows",
@@ -33,6 +35,24 @@ pub(crate) const SOURCE: Source = Source {
             ours: "The scene brabec from half the distance, with a 1024² map.",
             seconds: [15, 4],
             run: figure_8,
+        },
+        Target {
+            id: "brabec/levels",
+            title: "Levels of grey",
+            paper: "Sections 3 and 4: a 2×2 footprint has five levels of shadowing; fast PCF 4×4 adds four phases of five \
+                    levels, which makes 20.",
+            ours: "The scene brabec, 800×600 pixels, a 512² map. Levels are the different bytes in the picture of \
+                   visibility.",
+            seconds: [15, 4],
+            run: depths::grey_levels,
+        },
+        Target {
+            id: "brabec/depth",
+            title: "Depths of few bits",
+            paper: "Section 6: encoding depth in 8 bits of a colour loses precision; 12 bits per channel are a solution.",
+            ours: "The scene brabec, 800×600 pixels, a 512² map without filtering, depths of 8, 12, 16 bits and floats.",
+            seconds: [10, 4],
+            run: depths::few_bits,
         },
     ],
 };
