@@ -192,8 +192,8 @@ fn rgsm_fails([few, many]: [[Option<f64>; 2]; 2], spsm: Option<f64>) -> Verdict 
 
 pub(super) fn figure_14(bench: &Bench<'_>) -> Result<Page> {
     let mut table = Table::new(
-        "Shares of the pixels that see geometry.",
-        &["map", "recovered", "by 3×3 triangles", "by one"],
+        "Shares of the pixels that see geometry. The paper leaves the last two without colour.",
+        &["map", "recovered", "by 3×3 triangles", "by one", "lit, or facing away"],
     );
     let mut shares = Vec::new();
     let mut tiles = Vec::new();
@@ -202,7 +202,8 @@ pub(super) fn figure_14(bench: &Bench<'_>) -> Result<Page> {
         let look = study.look("spsm")?;
         let recovered = look.share(RECOVERED).with_context(|| format!("SPSM has no pixels '{RECOVERED}'"))?;
         let of = |i: usize| look.classes.get(i).map(|c| c.share);
-        let cells = [Some(recovered), of(1), of(0)].map(|v| Cell::ours(v, Unit::Share));
+        let others = of(0).zip(of(1)).map(|(own, around)| 1.0 - recovered - around - own);
+        let cells = [Some(recovered), of(1), of(0), others].map(|v| Cell::ours(v, Unit::Share));
         table.row(format!("{map}²"), cells.into());
         let tinted = look.tinted.as_ref().context("SPSM tells no kinds of pixels apart")?;
         tiles.push(Tile::new(format!("{map}²: {:.1} % recovered", 100.0 * recovered), tinted)?);
