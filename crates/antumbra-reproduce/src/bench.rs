@@ -6,7 +6,7 @@ use crate::{
     raster::Raster,
     study::{File, Look, Moving, Shot, Study, StudyFile, Traced, TracedFile, Truth, ViewFacts},
 };
-use antumbra::{Kernel, ShadowMap, Technique, Weights, technique};
+use antumbra::{Kernel, ShadowMap, Technique, Weights, technique, technique::Bias};
 use antumbra_lab::{
     classes,
     compare::{self, Contestant, Progress},
@@ -132,7 +132,18 @@ impl<'a> Bench<'a> {
     /// Unknown techniques or settings; settings that the device cannot do.
     pub fn study(&self, shot: Shot, map: u32, specs: &[&str]) -> Result<Study> {
         let key = ("study", shot, map, specs);
-        let file = self.cache.memo(&key, || self.draw(&shot, map, specs))?;
+        let file = self.cache.memo(&key, || self.draw(&shot, map, specs, Bias::Auto))?;
+        let key = serde_json::to_string(&key)?;
+        Ok(Study { shot, map, looks: file.looks, view: file.view, key })
+    }
+
+    /// The same with one bias for all techniques instead of each one's own.
+    ///
+    /// # Errors
+    /// As [`study`](Self::study); a bias that is not finite.
+    pub fn study_biased(&self, shot: Shot, map: u32, specs: &[&str], bias: Bias) -> Result<Study> {
+        let key = ("study, biased", shot, map, specs, bias.to_string());
+        let file = self.cache.memo(&key, || self.draw(&shot, map, specs, bias))?;
         let key = serde_json::to_string(&key)?;
         Ok(Study { shot, map, looks: file.looks, view: file.view, key })
     }
@@ -159,14 +170,15 @@ impl<'a> Bench<'a> {
         })
     }
 
-    fn draw(&self, shot: &Shot, map: u32, specs: &[&str]) -> Result<StudyFile> {
+    fn draw(&self, shot: &Shot, map: u32, specs: &[&str], bias: Bias) -> Result<StudyFile> {
         let (gpu, scene) = (&self.gpu, self.scene(shot.scene)?);
         let techniques = parse(specs)?;
         self.progress.step(&format!("prepare {} techniques on {}", specs.len(), shot.scene));
         let mut stage = self.stage(shot, &scene)?;
         let lighting = Lighting::new(gpu, &stage);
-        let (contestants, view) =
-            compare::enter(gpu, &mut stage, &scene.geometry, &scene.light, &techniques, map)?;
+        let (geometry, light) = (&scene.geometry, &scene.light);
+        let entries: Vec<_> = techniques.into_iter().map(|t| (t, bias)).collect();
+        let (contestants, view) = compare::enter_biased(gpu, &mut stage, geometry, light, &entries, map)?;
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         stage.encode_surfaces(&mut encoder, None);
         gpu.finish(encoder)?;

@@ -9,7 +9,10 @@ use crate::{
     target::{Source, Target},
     verdict::{Verdict, at_most, less, more},
 };
+use antumbra_lab::plane::Plane;
 use anyhow::Result;
+
+mod depths;
 
 pub(crate) const SOURCE: Source = Source {
     key: "brabec",
@@ -34,6 +37,24 @@ pub(crate) const SOURCE: Source = Source {
             seconds: [15, 4],
             run: figure_8,
         },
+        Target {
+            id: "brabec/levels",
+            title: "Levels of grey",
+            paper: "Sections 3 and 4: a 2×2 footprint has five levels of shadowing; fast PCF 4×4 adds four phases of five \
+                    levels, which makes 20.",
+            ours: "The scene brabec, 800×600 pixels, a 512² map. Levels are the different bytes in the picture of \
+                   visibility.",
+            seconds: [15, 4],
+            run: depths::grey_levels,
+        },
+        Target {
+            id: "brabec/depth",
+            title: "Depths of few bits",
+            paper: "Section 6: encoding depth in 8 bits of a colour loses precision; 12 bits per channel are a solution.",
+            ours: "The scene brabec, 800×600 pixels, a 512² map without filtering, depths of 8, 12, 16 bits and floats.",
+            seconds: [10, 4],
+            run: depths::few_bits,
+        },
     ],
 };
 
@@ -46,28 +67,54 @@ const FIGURE_7: [(&str, &str, f64); 4] = [
 ];
 
 fn figure_7(bench: &Bench<'_>) -> Result<Page> {
-    let (page, errors, ratios) = filters(bench, 1.0, 512, &FIGURE_7)?;
-    let mut page = page;
+    let Filters { mut page, errors, steps, ratios } = filters(bench, 1.0, 512, &FIGURE_7)?;
     page.verdict(close_to_pcf(errors[1], errors[2], errors[0]));
     page.verdict(faster_than_pcf(ratios[1], ratios[2]));
-    page.verdict(least_blocky([errors[0], errors[2], errors[3]]));
+    page.verdict(least_blocky([steps[0], steps[2], steps[3]]));
+    page.text(
+        "The wider footprint smooths away blocks and sharp edges alike: its error to the sharp truth grows.",
+    );
     Ok(page)
 }
 
 fn figure_8(bench: &Bench<'_>) -> Result<Page> {
     let pair = [("hard", "(a) without filtering", 15.0), ("packed.grid=2", "(b) fast PCF 2×2", 10.0)];
-    let (mut page, errors, _) = filters(bench, 0.5, 1024, &pair)?;
-    page.verdict(smooth(errors[0], errors[1]));
+    let Filters { mut page, steps, .. } = filters(bench, 0.5, 1024, &pair)?;
+    page.verdict(smooth(steps[0], steps[1]));
     Ok(page)
 }
 
-/// Pictures and a table; errors and frame times over the first one's.
-fn filters(
-    bench: &Bench<'_>,
-    distance: f32,
-    map: u32,
-    row: &[(&str, &str, f64)],
-) -> Result<(Page, Vec<f64>, Vec<f64>)> {
+/// How ways to filter compare.
+struct Filters {
+    page: Page,
+    /// RMSE to the truth.
+    errors: Vec<f64>,
+    /// What [`blockiness`] says.
+    steps: Vec<f64>,
+    /// Frame times over the first one's.
+    ratios: Vec<f64>,
+}
+
+/// Root of the mean square of what visibility changes by from a pixel to the next, right and below,
+/// where both can be in shadow. An edge that is spread over n pixels counts 1/√n of a sharp one.
+fn blockiness(visibility: &Plane, shadowable: &[bool]) -> f64 {
+    let (width, values) = (visibility.width as usize, &visibility.values);
+    let (mut sum, mut count) = (0.0, 0_u64);
+    for i in 0..values.len() {
+        let right = ((i + 1) % width != 0).then_some(i + 1);
+        let below = (i + width < values.len()).then_some(i + width);
+        for k in right.into_iter().chain(below) {
+            if shadowable[i] && shadowable[k] {
+                sum += f64::from(values[k] - values[i]).powi(2);
+                count += 1;
+            }
+        }
+    }
+    (sum / count.max(1) as f64).sqrt()
+}
+
+/// Pictures, a table and its numbers.
+fn filters(bench: &Bench<'_>, distance: f32, map: u32, row: &[(&str, &str, f64)]) -> Result<Filters> {
     let specs: Vec<&str> = row.iter().map(|r| r.0).collect();
     let (shot, map) = (bench.shot("brabec", [800, 600]).from(distance), bench.map(map));
     let study = bench.study(shot, map, &specs)?;
@@ -75,18 +122,20 @@ fn filters(
     let entrants: Vec<(u32, &str)> = specs.iter().map(|s| (map, *s)).collect();
     let times = bench.race(shot, &entrants, bench.rounds(7))?;
     let mut table = Table::new(
-        "RMSE to the truth; frame time over that without filtering (the paper's from frames per second).",
-        &["technique", "RMSE", "frame time"],
+        "RMSE to the truth; blockiness, the RMS change of visibility from pixel to pixel; frame time over that \
+         without filtering (the paper's from frames per second).",
+        &["technique", "RMSE", "blockiness", "frame time"],
     );
-    let (mut errors, mut ratios, mut pictures) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut errors, mut steps, mut ratios, mut pictures) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     for ((spec, name, fps), time) in row.iter().zip(&times) {
         let rmse = bench.score(&study, spec, truth, None)?.rmse;
+        let blocky = blockiness(&study.look(spec)?.visibility()?, &truth.shadowable);
         let ratio = time.frame.median_ms / times[0].frame.median_ms;
-        table.row(
-            *name,
-            vec![Cell::ours(rmse, Unit::Number), Cell::ours(ratio, Unit::Times).paper(row[0].2 / fps)],
-        );
+        let own = [rmse, blocky].map(|v| Cell::ours(v, Unit::Number));
+        let time = Cell::ours(ratio, Unit::Times).paper(row[0].2 / fps);
+        table.row(*name, own.into_iter().chain([time]).collect());
         errors.push(rmse);
+        steps.push(blocky);
         ratios.push(ratio);
         pictures.push((*name, &study.look(spec)?.picture));
     }
@@ -99,7 +148,7 @@ fn filters(
     ];
     gallery::rows(&mut page, captions, pictures.len(), &pictures, window)?;
     page.table(table);
-    Ok((page, errors, ratios))
+    Ok(Filters { page, errors, steps, ratios })
 }
 
 fn close_to_pcf(pcf: f64, fast: f64, none: f64) -> Verdict {
@@ -119,13 +168,13 @@ fn faster_than_pcf(pcf: f64, fast: f64) -> Verdict {
     )
 }
 
-/// Errors without filtering, of fast PCF 2×2 and 4×4.
+/// Blockiness without filtering, of fast PCF 2×2 and 4×4.
 fn least_blocky([none, two, four]: [f64; 3]) -> Verdict {
     Verdict::new(
         "Fast PCF 4×4 has the least blockiness",
         [
-            less("RMSE of fast PCF 2×2", two, "that without filtering", none),
-            less("RMSE of fast PCF 4×4", four, "that of 2×2", two),
+            less("blockiness of fast PCF 2×2", two, "that without filtering", none),
+            less("blockiness of fast PCF 4×4", four, "that of 2×2", two),
         ],
     )
 }
@@ -133,7 +182,7 @@ fn least_blocky([none, two, four]: [f64; 3]) -> Verdict {
 fn smooth(none: f64, fast: f64) -> Verdict {
     Verdict::new(
         "At 1024² too, fast PCF smooths blocky boundaries",
-        [more("RMSE without filtering", none, "1.1 times that of fast PCF 2×2", 1.1 * fast)],
+        [more("blockiness without filtering", none, "1.1 times that of fast PCF 2×2", 1.1 * fast)],
     )
 }
 
@@ -153,5 +202,15 @@ mod tests {
         assert_eq!(least_blocky([0.3, 0.1, 0.2]).outcome(), Differs);
         assert_eq!(smooth(0.2, 0.1).outcome(), Holds);
         assert_eq!(smooth(0.1, 0.1).outcome(), Differs);
+    }
+
+    #[test]
+    fn blockiness_falls_with_the_width_of_an_edge() {
+        let edge = |ramp: f32| Plane::from_fn(8, 2, |x, _| ((x as f32 - 2.0) / ramp).clamp(0.0, 1.0));
+        let all = [true; 16];
+        let [sharp, wide] = [1.0, 4.0].map(|ramp| blockiness(&edge(ramp), &all));
+        assert!((sharp / wide - 2.0).abs() < 1e-6, "{sharp} {wide}");
+        assert_eq!(blockiness(&Plane::filled(8, 2, 1.0), &all), 0.0);
+        assert_eq!(blockiness(&edge(1.0), &[false; 16]), 0.0);
     }
 }

@@ -1,0 +1,148 @@
+//! Levels of grey (sections 3 and 4), and depths of few bits (section 6).
+
+use crate::{
+    bench::Bench,
+    gallery,
+    page::{Cell, Page, Table, Unit},
+    raster::{difference, gray},
+    study::Truth,
+    verdict::{Verdict, at_least, at_most, more},
+};
+use anyhow::Result;
+use std::collections::BTreeSet;
+
+/// Spec, name, levels that the paper counts.
+const LEVELS: [(&str, &str, Option<f64>); 7] = [
+    ("hard", "without filtering", Some(2.0)),
+    ("stratified.grid=2", "PCF 2×2", Some(5.0)),
+    ("stratified.grid=3", "PCF 3×3", None),
+    ("stratified.grid=4", "PCF 4×4", None),
+    ("packed.grid=2", "fast PCF 2×2", Some(5.0)),
+    ("packed.grid=4", "fast PCF 4×4, added in floats", None),
+    ("packed.grid=4,accumulation=bytes", "fast PCF 4×4, added in 8 bits", Some(20.0)),
+];
+
+/// How many different values occur, those that 8 bits cannot tell apart being one.
+fn levels(visibility: &[f32]) -> usize {
+    visibility.iter().map(|v| (v.clamp(0.0, 1.0) * 255.0).round() as u8).collect::<BTreeSet<_>>().len()
+}
+
+pub(super) fn grey_levels(bench: &Bench<'_>) -> Result<Page> {
+    let specs = LEVELS.map(|l| l.0);
+    let study = bench.study(bench.shot("brabec", [800, 600]), bench.map(512), &specs)?;
+    let truth = &bench.truths(&study, &[Truth::ScreenSpace(4)])?[0];
+    let mut table = Table::new(
+        "Different bytes among the pixels that can be in shadow, RMSE to 16 rays per pixel.",
+        &["technique", "levels", "RMSE"],
+    );
+    let (mut counts, mut pictures) = (Vec::new(), Vec::new());
+    for (spec, name, paper) in LEVELS {
+        let plane = study.look(spec)?.visibility()?;
+        let seen: Vec<f32> =
+            plane.values.iter().zip(&truth.shadowable).filter(|(_, s)| **s).map(|(v, _)| *v).collect();
+        let count = levels(&seen) as f64;
+        let rmse = bench.score(&study, spec, truth, None)?.rmse;
+        table.row(name, vec![Cell::ours(count, Unit::Number).paper(paper), Cell::ours(rmse, Unit::Number)]);
+        counts.push(count);
+        pictures.push((name, gray(&plane)));
+    }
+    pictures.push(("16 rays per pixel", gray(&truth.plane)));
+    let pictures: Vec<_> = pictures.iter().map(|(name, picture)| (*name, picture)).collect();
+    let mut page = Page::default();
+    let window = gallery::window(&difference(pictures[0].1, pictures[7].1), pictures[0].1, 12);
+    gallery::close_ups(
+        &mut page,
+        "Visibility, enlarged where no filtering is most wrong.",
+        4,
+        &pictures,
+        window,
+    )?;
+    page.table(table);
+    page.verdict(five(counts[1], counts[4]));
+    page.verdict(twenty(counts[6]));
+    Ok(page)
+}
+
+fn five(pcf: f64, fast: f64) -> Verdict {
+    let exactly = |name: &str, n: f64| [at_least(name, n, "five", 5.0), at_most(name, n, "five", 5.0)];
+    let both = [exactly("levels of PCF 2×2", pcf), exactly("levels of fast PCF 2×2", fast)];
+    Verdict::new("A 2×2 footprint gives five levels of shadowing", both.concat())
+}
+
+fn twenty(levels: f64) -> Verdict {
+    Verdict::new(
+        "Fast PCF 4×4 gives 20 levels",
+        [
+            at_least("levels in the picture", levels, "20", 20.0),
+            at_most("levels in the picture", levels, "20", 20.0),
+        ],
+    )
+}
+
+const BITS: [(&str, &str); 4] = [
+    ("hard.precision=8", "8 bits"),
+    ("hard.precision=12", "12 bits"),
+    ("hard.precision=16", "16 bits"),
+    ("hard", "32-bit floats"),
+];
+
+pub(super) fn few_bits(bench: &Bench<'_>) -> Result<Page> {
+    let specs = BITS.map(|b| b.0);
+    let study = bench.study(bench.shot("brabec", [800, 600]), bench.map(512), &specs)?;
+    let truth = &bench.truths(&study, &[Truth::Hard])?[0];
+    let mut table = Table::new(
+        "Against one shadow ray per pixel. Leak: mean visibility inside shadows.",
+        &["depths", "wrong pixels", "leak", "acne"],
+    );
+    let (mut wrong, mut pictures) = (Vec::new(), Vec::new());
+    for (spec, name) in BITS {
+        let score = bench.score(&study, spec, truth, None)?;
+        let cells = [Some(1.0 - score.pixel_match), score.leak, score.acne];
+        table.row(name, cells.map(|v| Cell::ours(v, Unit::Share)).into());
+        wrong.push(1.0 - score.pixel_match);
+        pictures.push((name, &study.look(spec)?.picture));
+    }
+    pictures.push(("rays", &truth.picture));
+    let mut page = Page::default();
+    let window = gallery::window(&difference(pictures[0].1, pictures[3].1), pictures[0].1, 8);
+    let captions = ["Without filtering, a 512² map.", "Enlarged: where 8 bits differ most from floats."];
+    gallery::rows(&mut page, captions, 5, &pictures, window)?;
+    page.table(table);
+    page.verdict(bits_show(wrong[0], wrong[1], wrong[3]));
+    Ok(page)
+}
+
+fn bits_show(eight: f64, twelve: f64, float: f64) -> Verdict {
+    Verdict::new(
+        "Depths of 8 bits lose precision that shows; 12 bits are a solution",
+        [
+            more("wrong pixels with 8 bits", eight, "1.5 times those with floats", 1.5 * float),
+            at_most("wrong pixels with 12 bits", twelve, "1.1 times those with floats", 1.1 * float),
+        ],
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::verdict::Outcome::{Differs, Holds};
+
+    #[test]
+    fn verdicts_follow_their_numbers() {
+        assert_eq!(five(5.0, 5.0).outcome(), Holds);
+        assert_eq!(five(5.0, 6.0).outcome(), Differs);
+        assert_eq!(five(4.0, 5.0).outcome(), Differs);
+        assert_eq!(twenty(20.0).outcome(), Holds);
+        assert_eq!(twenty(17.0).outcome(), Differs);
+        assert_eq!(twenty(35.0).outcome(), Differs);
+        assert_eq!(bits_show(0.1, 0.02, 0.02).outcome(), Holds);
+        assert_eq!(bits_show(0.025, 0.02, 0.02).outcome(), Differs);
+        assert_eq!(bits_show(0.1, 0.05, 0.02).outcome(), Differs);
+    }
+
+    #[test]
+    fn levels_are_what_8_bits_tell_apart() {
+        assert_eq!(levels(&[0.0, 0.25, 0.25, 0.5, 0.75, 1.0, 0.5001]), 5);
+        assert_eq!(levels(&[]), 0);
+    }
+}
