@@ -1,4 +1,4 @@
 
-fn convert_source(p: vec2f, cast: u32) -> f32 {
-    return convert_depth(p, cast);
+fn convert_source(p: vec2f, which: u32) -> f32 {
+    return convert_depth(p, which);
 }
