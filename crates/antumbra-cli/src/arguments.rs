@@ -276,7 +276,7 @@ pub(crate) struct Bias {
 }
 
 /// The usual ones.
-const SETTINGS: [&str; 10] = [
+const SETTINGS: [&str; 11] = [
     "auto",
     "none",
     "constant_texels=1",
@@ -287,6 +287,7 @@ const SETTINGS: [&str; 10] = [
     "normal_offset_texels=1",
     "normal_offset_texels=2",
     "receiver_plane=1",
+    "constant_texels=1,slope_texels=2",
 ];
 
 #[derive(Debug, Args)]

@@ -15,6 +15,8 @@ fn main() {
     trials.add("curves", |_| curves());
     trials.add("maps", |_| maps());
     trials.add("classes", |_| classes());
+    trials.add("biases", |_| biases());
+    trials.add("kernels", |_| kernels());
     trials.add_plain("refusals", refusals);
     trials.run();
 }
@@ -94,6 +96,43 @@ fn classes() {
     assert!(page.contains("Kinds of pixels") && page.contains("assumption violated"));
 }
 
+fn biases() {
+    let folder = Folder::new();
+    let small = ["--resolution", "96x72", "--size", "256"];
+    let bias = ["bias", "contact", "layers", "--techniques", "hard"];
+    let table = folder.run(&[&bias[..], &small[..]].concat()).good();
+    assert!(table.contains("contact\n") && table.contains("layers\n"), "{table}");
+    assert_eq!(table.matches("constant_texels=1,slope_texels=2").count(), 2, "{table}");
+    let some = ["--settings", "none", "receiver_plane=1,constant_texels=2", "--json"];
+    let rows: Value =
+        serde_json::from_str(&folder.run(&[&bias[..], &small[..], &some[..]].concat()).good()).unwrap();
+    let [none, plane] = [0, 1].map(|i| &rows["contact"][i]);
+    assert_eq!(plane["bias"], "constant_texels=2,receiver_plane=1");
+    assert!(none["acne"].as_f64().unwrap() > 0.2 && plane["acne"].as_f64().unwrap() < 0.01, "{rows}");
+    // The same by eye.
+    let dark = |bias: &str| {
+        let picture =
+            ["render", "contact", "-t", "hard", "--show", "visibility", "-o", "v.png", "--bias", bias];
+        folder.run(&[&picture[..], &small[..]].concat()).good();
+        fs::read(folder.0.join("v.png")).unwrap()
+    };
+    assert!(dark("none") != dark("auto") && dark("auto") == dark("auto"));
+}
+
+fn kernels() {
+    let folder = Folder::new();
+    let small =
+        ["kernels", "contact", "--resolution", "96x72", "--size", "256", "--rounds", "1", "--grid", "1"];
+    let more = ["--kernels", "3", "4", "--techniques", "pcf", "esm", "--json"];
+    let rows: Value = serde_json::from_str(&folder.run(&[&small[..], &more[..]].concat()).good()).unwrap();
+    let names: Vec<&str> =
+        rows.as_array().unwrap().iter().map(|r| r["technique"].as_str().unwrap()).collect();
+    // A blur has odd kernels only.
+    assert_eq!(names, ["pcf", "esm", "pcf.kernel=4"]);
+    assert_eq!((rows[0]["lookups"].as_u64(), rows[1]["lookups"].as_u64()), (Some(4), Some(1)));
+    assert!(rows[2]["rmse_light_space"].as_f64().unwrap() > 0.0);
+}
+
 fn refusals() {
     let folder = Folder::new();
     let cases: &[(&[&str], &[&str])] = &[
@@ -109,6 +148,15 @@ fn refusals() {
         (&["curve", "csm", "--points", "1"], &["--points 1", "2 to 65536"]),
         (&["maps", "contact", "-t", "all"], &["--technique all", "one technique"]),
         (&["maps", "contact", "-t", "cms"], &["'cms'", "did you mean csm?"]),
+        (&["bias"], &["<SCENE>"]),
+        (&["bias", "contact", "--settings", "slope=1"], &["'slope=1'", "no 'slope'", "slope_texels"]),
+        (&["bias", "contact", "--settings", "slope_texels=inf"], &["bias.slope_texels", "inf", "finite"]),
+        (&["bias", "contact", "--settings", "much"], &["'much'", "auto, none"]),
+        (&["bias", "garden"], &["'garden'", "contact"]),
+        (&["render", "contact", "--bias", "much"], &["'much'", "auto, none"]),
+        (&["kernels", "contact", "--kernels", "0"], &["--kernel 0", "1 to 31"]),
+        (&["kernels", "contact", "--techniques", "cms"], &["'cms'", "did you mean csm?"]),
+        (&["kernels", "contact", "--rounds", "0"], &["--rounds 0"]),
         (&["maps", "garden"], &["'garden'", "contact"]),
         (&["render", "contact", "-t", "hard", "--show", "classes"], &["--show classes", "hard"]),
         (&["render", "contact", "-t", "truth", "--show", "classes"], &["--show classes", "truth"]),

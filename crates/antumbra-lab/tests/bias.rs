@@ -64,7 +64,7 @@ fn main() {
         // The floor of this scene lies at the far end of a long range of projected depths.
         let terms = "constant_texels=0.05,slope_texels=0.05,receiver_plane=1";
         let settings = [terms.to_string(), format!("{terms},depth_steps=0.5")];
-        let rows = study(gpu, "spot", &["hard"], &settings.each_ref().map(String::as_str));
+        let rows = sharp_study(gpu, "spot", &["hard"], &settings.each_ref().map(String::as_str), 1024);
         assert!(rows[0].acne > 10.0 * rows[1].acne && rows[0].acne > ACNE, "{rows:?}");
     });
     trials.add("coarse depths are covered", |gpu| {
@@ -80,6 +80,16 @@ fn main() {
 }
 
 fn study(gpu: &antumbra_testing::Gpu, scene: &str, techniques: &[&str], settings: &[&str]) -> Vec<Row> {
+    sharp_study(gpu, scene, techniques, settings, 512)
+}
+
+fn sharp_study(
+    gpu: &antumbra_testing::Gpu,
+    scene: &str,
+    techniques: &[&str],
+    settings: &[&str],
+    map_size: u32,
+) -> Vec<Row> {
     let gpu = Gpu::adopt(gpu.device.clone(), gpu.queue.clone(), gpu.info.clone());
     let scene = procedural::by_name(scene).unwrap().scene(1);
     let specs: Vec<String> = techniques.iter().map(|spec| spec.to_string()).collect();
@@ -90,7 +100,7 @@ fn study(gpu: &antumbra_testing::Gpu, scene: &str, techniques: &[&str], settings
         light: &scene.main_light(),
         techniques: &compare::techniques(&specs, 5).unwrap(),
         settings: &settings,
-        map_size: 512,
+        map_size,
         resolution: [256, 192],
     };
     bias::study(&gpu, &request, &Silent).unwrap()

@@ -1,8 +1,11 @@
 //! `antumbra kernels`: error and cost over kernel widths.
 
 use super::table;
-use crate::{arguments::Kernels, progress::Bar, scene};
-use antumbra::technique;
+use crate::{
+    arguments::{Kernels, SceneArguments},
+    progress::Bar,
+    scene,
+};
 use antumbra_lab::{
     compare::{self, Request},
     gpu::Gpu,
@@ -66,25 +69,24 @@ pub(crate) fn run(arguments: &Kernels) -> Result<()> {
         bail!("--rounds 0: at least 1 frame has to be timed");
     }
     let mut rows = Vec::new();
-    scene::check(&arguments.scene)?;
+    // Three texels suit every technique: what is refused here is wrong.
+    compare::techniques(&arguments.techniques, 3)?;
+    for &kernel in &arguments.kernels {
+        scene::check(&SceneArguments { kernel, ..arguments.scene.clone() })?;
+    }
     let setting = scene::load(&arguments.scene)?;
     let gpu = Gpu::new()?;
     for &kernel in &arguments.kernels {
-        let scene = crate::arguments::SceneArguments { kernel, ..arguments.scene.clone() };
-        scene::check(&scene)?;
         // Some kernels are odd only.
         let takes = |spec: &&String| compare::techniques(&[(*spec).clone()], kernel).is_ok();
         let specs: Vec<String> = arguments.techniques.iter().filter(takes).cloned().collect();
-        for spec in &arguments.techniques {
-            technique::parse(spec)?;
-        }
         let request = Request {
             scene: setting.name.clone(),
             geometry: setting.geometry.clone(),
             camera: setting.camera,
             light: setting.light,
             techniques: compare::techniques(&specs, kernel)?,
-            map_size: scene.size,
+            map_size: arguments.scene.size,
             kernel,
             resolution: setting.resolution,
             grid: arguments.grid,

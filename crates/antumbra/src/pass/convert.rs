@@ -8,7 +8,7 @@ use crate::{
     technique::{Combine, Encode, Map, Technique},
 };
 
-/// WGSL that gives encoded texels: `convert_source(p, caster_pass)` and `convert_layer(source, layer)`.
+/// WGSL that gives encoded texels: `convert_source(p, which)` and `convert_layer(source, layer)`.
 #[derive(Debug)]
 pub(super) struct Source {
     wgsl: String,

@@ -1,4 +1,4 @@
 
-fn convert_source(p: vec2f, caster_pass: u32) -> f32 {
-    return convert_depth(p, caster_pass);
+fn convert_source(p: vec2f, which: u32) -> f32 {
+    return convert_depth(p, which);
 }
