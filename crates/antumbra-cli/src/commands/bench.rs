@@ -72,8 +72,8 @@ pub(crate) fn run(arguments: &Bench) -> Result<()> {
         "median milliseconds over {} rounds; frame: wall clock with its extremes",
         arguments.rounds
     )?;
-    let header =
-        ["technique", "cast", "convert", "blur", "mips", "sum", "surfaces", "lookup", "frame", "min", "max"];
+    let header: Vec<&str> =
+        std::iter::once("technique").chain(PASSES).chain(["frame", "min", "max"]).collect();
     table::print(out, &header, &rows)?;
     writeln!(out, "ray-traced hard truth, acceleration structure included: {truth:.2} s")?;
     Ok(())

@@ -31,7 +31,7 @@ pub struct Exact {
 
 impl Default for Exact {
     fn default() -> Self {
-        Self { per_texel: 8, triangles: 1 << 19 }
+        Self { per_texel: 6, triangles: 1 << 19 }
     }
 }
 
