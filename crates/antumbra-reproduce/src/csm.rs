@@ -22,7 +22,7 @@ pub(crate) const SOURCE: Source = Source {
                     fall on a pixel. A CSM is mip-mapped like any texture; with a 7×7 blur it hides the texels as well.",
             ours: "The scene fence from four times its distance, a 2048² map. The truth is sharp, with 64 rays per pixel. \
                    A CSM without mips (bilinear) shows what the mip levels add.",
-            seconds: [30, 6],
+            seconds: [15, 3],
             run: filters::figure_1,
         },
         Target {
@@ -32,7 +32,7 @@ pub(crate) const SOURCE: Source = Source {
                     beside hardware PCF; 1024×768 pixels, 365,000 triangles, 16× anisotropic filtering.",
             ours: "The same grid on the scene fence with 365,000 triangles at 1024×768 pixels. Each cell is the frame \
                    time over that of PCF (one bilinear lookup) with a map of the same size.",
-            seconds: [150, 15],
+            seconds: [115, 16],
             run: speed::table_1,
         },
         Target {
@@ -42,7 +42,7 @@ pub(crate) const SOURCE: Source = Source {
                     ringing and widens the step (b); an offset (c) or a scale (d) lights surfaces that would be half dark.",
             ours: "What receivers get from a map whose every texel holds one depth, without bias and clamped to 0..1, so \
                    that ringing beyond shows as a flat.",
-            seconds: [6, 5],
+            seconds: [3, 2],
             run: curves::figure_3,
         },
         Target {
@@ -51,7 +51,7 @@ pub(crate) const SOURCE: Source = Source {
             paper: "Scaling the series by two (a) lights surfaces but sharpens shadows; an offset (b) keeps the blur but has \
                     less shadow near contact points. 5×5 Gauss, M = 16.",
             ours: "The scene blocks, a 1024² map, the same two settings.",
-            seconds: [15, 4],
+            seconds: [10, 2],
             run: terms::figure_4,
         },
         Target {
@@ -61,7 +61,7 @@ pub(crate) const SOURCE: Source = Source {
                     that 8 bits per basis function are used.",
             ours: "The maps of the scene blocks; pictures of the scenes fence and blocks with 8-bit, 16-bit and 32-bit \
                    coefficients, 2048² maps, 5×5 Gauss.",
-            seconds: [30, 8],
+            seconds: [62, 7],
             run: terms::figure_5,
         },
         Target {
@@ -70,8 +70,8 @@ pub(crate) const SOURCE: Source = Source {
             paper: "Few terms brighten shadows where occluder and receiver are close: a low square, a slanted polygon that \
                     touches the ground. M = 4 is satisfactory, without noticeable intensity artifacts; M = 16 is sharper.",
             ours: "The scenes blocks, with four floating squares and a slanted polygon, and spheres; 1024² maps, 3×3 Gauss, \
-                   8-bit coefficients, M from 2 to 32. Contact is where the caster is nearer than a twentieth of the depth range.",
-            seconds: [20, 5],
+                   8-bit coefficients, M from 1 to 32. Contact is where the caster is nearer than a twentieth of the depth range.",
+            seconds: [22, 3],
             run: terms::figure_6,
         },
         Target {
@@ -80,7 +80,7 @@ pub(crate) const SOURCE: Source = Source {
             paper: "Two trees lit from the side: PCF (a) and a CSM with bilinear lookups (b) lose thin branches; trilinear \
                     anisotropic lookups (c) recover them; blurs of 3×3, 5×5 and 7×7 (d to f) hide the texels.",
             ours: "The scene trees, a 2048² map, 16× anisotropic lookups. The truth is sharp, with 16 rays per pixel.",
-            seconds: [60, 8],
+            seconds: [21, 3],
             run: filters::figure_7,
         },
         Target {
@@ -90,7 +90,7 @@ pub(crate) const SOURCE: Source = Source {
                     soft shadows without visible texels.",
             ours: "The scene spheres with the same grid. Texels show as error to the light-space ideal of the same kernel; a \
                    standard map of the same size is judged by the same ideal.",
-            seconds: [60, 8],
+            seconds: [36, 4],
             run: filters::figure_8,
         },
         Target {
@@ -102,7 +102,7 @@ pub(crate) const SOURCE: Source = Source {
             ours: "The scenes fence and layers, a 2048² map, a 7×7 Gaussian. A VSM leaks where its visibility is above \
                    0.05 though rays say full shadow there and within 4 pixels. Pixels whose caster is nearer than the ramp of the CSM, 7 % of the \
                    depth range, are left out: there the CSM is known to be too bright (figure 6).",
-            seconds: [40, 6],
+            seconds: [63, 6],
             run: layers::figure_9,
         },
         Target {

@@ -18,7 +18,7 @@ pub(crate) const SOURCE: Source = Source {
             paper: "A backyard with a 2048² map and a 5×5 Gauss: CSM 22 fps and 170 MB, VSM 84 fps and 42 MB, ESM 94 fps and \
                     21 MB, mip levels included. ESM takes 8× less memory than CSM and leaks less at contact points.",
             ours: "The scene backyard, a 2048² map, 5×5 Gauss, 800×600 pixels. Memory is what lookups need, depth aside.",
-            seconds: [60, 8],
+            seconds: [140, 10],
             run: quality::figure_1,
         },
         Target {
@@ -28,7 +28,7 @@ pub(crate) const SOURCE: Source = Source {
                     ESM with Threshold, ESM with Z-Max, VSM, CSM.",
             ours: "The same grid on the scene backyard at 800×600 pixels. Each cell is the frame time over that of ESM with \
                    Threshold, same map and kernel.",
-            seconds: [90, 15],
+            seconds: [105, 12],
             run: speed::table_1,
         },
         Target {
@@ -37,7 +37,7 @@ pub(crate) const SOURCE: Source = Source {
             paper: "Frames per second of Z-Max and Threshold with maps of 128² to 1024², 800×800 pixels: Threshold is always \
                     faster, and the penalty of Z-Max grows with the map.",
             ours: "The same grid on the scene spheres. Each cell is the frame time of Z-Max over that of Threshold.",
-            seconds: [40, 8],
+            seconds: [16, 3],
             run: speed::table_2,
         },
         Target {
@@ -47,7 +47,7 @@ pub(crate) const SOURCE: Source = Source {
                     receiver in their kernel and are filtered by hand; with kernels of 7×7 it is 7.1 % and 9.3 %.",
             ours: "The scene backyard, 800×800 pixels, a 2048² map, both classifiers with their default tolerance. Shares \
                    are of the pixels that see geometry, which are fewer than all.",
-            seconds: [15, 6],
+            seconds: [10, 2],
             run: failures::table_3,
         },
         Target {
@@ -56,7 +56,7 @@ pub(crate) const SOURCE: Source = Source {
             paper: "The step is approximated by an exponential decay: the larger c the better (a); with c = 80 it is better \
                     than a CSM of 16 terms with an offset of 0.032 (b).",
             ours: "What receivers get behind a map whose every texel holds one depth, without bias.",
-            seconds: [5, 4],
+            seconds: [2, 1],
             run: curve::figure_2,
         },
         Target {
@@ -66,7 +66,7 @@ pub(crate) const SOURCE: Source = Source {
                     some. Shown: the pixels that each finds.",
             ours: "The scene backyard with a 2048² map and 5×5 Gauss: pixels found (red), and the error with either and \
                    without any.",
-            seconds: [40, 6],
+            seconds: [6, 2],
             run: failures::figure_5,
         },
         Target {
@@ -75,7 +75,7 @@ pub(crate) const SOURCE: Source = Source {
             paper: "(a) With an offset that is too small, Z-Max flags lit surfaces. (b) The higher the threshold, the fewer \
                     pixels are found.",
             ours: "The scene backyard, a 1024² map, 5×5 Gauss; sweeps of Z-Max's offset and of Threshold's ε.",
-            seconds: [20, 6],
+            seconds: [4, 2],
             run: failures::figure_6,
         },
         Target {
@@ -85,7 +85,7 @@ pub(crate) const SOURCE: Source = Source {
                     Gauss: at least 36 samples match the first, 64 the second, at a much lower frame rate.",
             ours: "The scene fence from twice its distance, a 2048² map, where many texels fall on a pixel. footprint is PCF \
                    that spreads a budget of lookups over the pixel's footprint. The truth is sharp, with 64 rays per pixel.",
-            seconds: [60, 8],
+            seconds: [30, 5],
             run: samples::figure_7,
         },
         Target {
@@ -94,7 +94,7 @@ pub(crate) const SOURCE: Source = Source {
             paper: "A fence of 365,000 faces with a 2048² map and a 5×5 Gauss: ESM looks like CSM, is better at contact \
                     shadows, and leaks less than VSM.",
             ours: "The scene fence, the same map and kernel. Contact: casters nearer than a twentieth of the depth range.",
-            seconds: [60, 8],
+            seconds: [31, 5],
             run: quality::figure_8,
         },
         Target {
@@ -103,7 +103,7 @@ pub(crate) const SOURCE: Source = Source {
             paper: "The backyard's failing pixels in red, without convolution and with 3×3, 5×5 and 7×7: Z-Max above, \
                     Threshold below.",
             ours: "The same pictures of the scene backyard; the numbers are those of table 3.",
-            seconds: [15, 6],
+            seconds: [3, 1],
             run: failures::figure_10,
         },
     ],

@@ -25,7 +25,7 @@ pub(crate) const SOURCE: Source = Source {
                 4×4 of bilinear lookups. Nearest-neighbour lookups leave quantisation; bilinear ones do not.",
             ours: "The scene spheres with a 512² map, so that texels show. Scored against rays: the ideal that a Gaussian \
                of the same width in light space would give.",
-            seconds: [20, 4],
+            seconds: [9, 2],
             run: pcf_row,
         },
         Target {
@@ -34,7 +34,7 @@ pub(crate) const SOURCE: Source = Source {
             paper: "For bigger kernels than 2×2, the exact bicubic convolution takes four bilinear lookups.",
             ours: "Visibility across the straight edge of a caster, position by position, beside the convolution of the \
                    texels' comparisons with the cubic B-spline, computed in double precision.",
-            seconds: [4, 3],
+            seconds: [2, 1],
             run: lookups::bicubic,
         },
         Target {
@@ -43,7 +43,7 @@ pub(crate) const SOURCE: Source = Source {
             paper: "A VSM works in many situations, but light bleeds where the variance is large; several layered VSMs \
                     alleviate it.",
             ours: "The scene layers, a 1024² map, 5×5 Gauss: a VSM and layered ones of 2, 4 and 8 intervals of depth.",
-            seconds: [20, 5],
+            seconds: [6, 2],
             run: lookups::vsm_layers,
         },
         Target {
@@ -53,7 +53,7 @@ pub(crate) const SOURCE: Source = Source {
                     in constant time.",
             ours: "Lookup times of VSM with a summed-area table for boxes of 3×3 to 63×63 texels, and of PCF for kernels of \
                    2×2 to 16×16; scene spheres, a 1024² map, 640×480 pixels.",
-            seconds: [15, 5],
+            seconds: [8, 3],
             run: lookups::sat,
         },
     ],

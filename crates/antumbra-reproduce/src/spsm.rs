@@ -18,7 +18,7 @@ pub(crate) const SOURCE: Source = Source {
                     (12,000 triangles), YeahRight (155,000), a city (2,300,000). The overhead is 26 to 56 %.",
             ours: "The scenes spheres (12,000 triangles), tangle (150,000) and city (2,300,000) at 960×540 pixels. Cells are \
                    the frame time of SPSM over that of the standard map.",
-            seconds: [150, 30],
+            seconds: [113, 10],
             run: speed::table_1,
         },
         Target {
@@ -26,7 +26,7 @@ pub(crate) const SOURCE: Source = Source {
             title: "Overhead over the size of the map",
             paper: "YeahRight with maps of 512² to 4096²: the overhead over a standard map falls from 81 to 27 %.",
             ours: "The scene tangle at 960×540 pixels with the same maps.",
-            seconds: [60, 10],
+            seconds: [32, 13],
             run: speed::table_2,
         },
         Target {
@@ -35,7 +35,7 @@ pub(crate) const SOURCE: Source = Source {
             paper: "A standard map of 1024², SPSM without and with the recovery of silhouettes: the last is smooth.",
             ours: "The scene spheres with a standard map and SPSM, 512² so that texels show. SPSM without recovery is not a \
                    setting; the third picture shows where silhouettes were recovered.",
-            seconds: [15, 5],
+            seconds: [2, 1],
             run: quality::figure_2,
         },
         Target {
@@ -63,7 +63,7 @@ pub(crate) const SOURCE: Source = Source {
             paper: "Against ray-traced shadows, with maps of 1024² and 2048²: at 2048², 99.63 % of the pixels match for SPSM \
                     and 97.93 % for a standard map.",
             ours: "The scene tangle, 800×600 pixels; the share of the pixels facing the light that have the same answer.",
-            seconds: [30, 6],
+            seconds: [7, 4],
             run: quality::figure_12,
         },
         Target {
@@ -72,7 +72,7 @@ pub(crate) const SOURCE: Source = Source {
             paper: "A 512² map: RGSM with 5×5 lookups works for low-density models but fails for highly tessellated ones; \
                     SPSM with 3×3 recovers their boundaries.",
             ours: "The scenes contact (17 triangles) and tangle (150,000) with 512² maps.",
-            seconds: [30, 6],
+            seconds: [5, 3],
             run: quality::figure_13,
         },
         Target {
@@ -81,7 +81,7 @@ pub(crate) const SOURCE: Source = Source {
             paper: "The larger the map, the fewer pixels need silhouette recovery (red); green pixels are shadowed by one of \
                     3×3 triangles.",
             ours: "The scene tangle, 640×480 pixels, maps of 512², 1024² and 2048².",
-            seconds: [25, 6],
+            seconds: [6, 5],
             run: quality::figure_14,
         },
         Target {
@@ -90,7 +90,7 @@ pub(crate) const SOURCE: Source = Source {
             paper: "Where many triangles fall into a texel, as in foliage, gaps of shadows close; a larger map (1024² for 512²) \
                     reduces it.",
             ours: "The scene trees, 640×480 pixels. Fusion is darkening where rays say light, over all lit pixels.",
-            seconds: [30, 6],
+            seconds: [8, 5],
             run: quality::figure_15,
         },
         Target {

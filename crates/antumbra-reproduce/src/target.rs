@@ -14,7 +14,8 @@ pub struct Target {
     pub paper: &'static str,
     /// What we run instead.
     pub ours: &'static str,
-    /// Seconds that it takes alone on two cores without a graphics card: in full, and in a quick run.
+    /// Seconds that it takes on two busy cores without a graphics card, among all others, with which it
+    /// shares measurements: in full, and in a quick run.
     pub seconds: [u32; 2],
     /// Measures and judges.
     pub run: fn(&Bench<'_>) -> Result<Page>,

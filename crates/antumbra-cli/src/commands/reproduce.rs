@@ -82,7 +82,7 @@ fn list() -> Result<()> {
     let total = |i: usize| time(target::all().map(|t| t.seconds[i]).sum());
     writeln!(
         out,
-        "all: about {} ({} with --quick) on two cores without a graphics card",
+        "all: about {} ({} with --quick) on two busy cores without a graphics card",
         total(0),
         total(1)
     )?;

@@ -131,8 +131,7 @@ fn eight_bits(scene: &str, rmse: f64, error: f64, exact_error: f64) -> Verdict {
     )
 }
 
-/// From a single texture of four channels on.
-const TERMS: [u32; 5] = [2, 4, 8, 16, 32];
+const TERMS: [u32; 6] = [1, 2, 4, 8, 16, 32];
 
 pub(super) fn figure_6(bench: &Bench<'_>) -> Result<Page> {
     let specs = TERMS.map(|terms| format!("csm.terms={terms}"));
@@ -174,7 +173,7 @@ pub(super) fn figure_6(bench: &Bench<'_>) -> Result<Page> {
             format!("The scene {scene}, as in the figure, and what rays say."),
             "Enlarged: where fewest and most terms differ most.".into(),
         ];
-        gallery::rows(&mut page, [&captions[0], &captions[1]], 3, &pictures, window)?;
+        gallery::rows(&mut page, [&captions[0], &captions[1]], 4, &pictures, window)?;
     }
     page.table(table);
     page.text(
