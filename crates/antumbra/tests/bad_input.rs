@@ -49,7 +49,7 @@ fn views(gpu: &Gpu) {
     says(&message, &[&format!("{}", (max / 8 + 1) * 8), &format!("1 to {max}")]);
 }
 
-/// Views that fit the arrays must fit the uniforms too: 112 bytes each, and 24 behind them.
+/// Views that fit the arrays must fit the uniforms too: 112 bytes each, and 36 behind them.
 fn uniforms(_: &Gpu) {
     let limits = wgpu::Limits { max_uniform_buffer_binding_size: 16 << 10, ..Default::default() };
     let lesser = antumbra_testing::gpu_with(wgpu::Features::empty(), limits).unwrap();
