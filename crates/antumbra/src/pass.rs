@@ -63,7 +63,7 @@ pub(crate) struct Step {
     /// A whole WGSL module with `vertex` and `fragment`, or with `compute`.
     pub(crate) shader: String,
     pub(crate) work: Work,
-    /// Layers from here on are bound as one array.
+    /// Layers from here on are bound as one array; of the only depth of the casters, one.
     pub(crate) source: Place,
     pub(crate) source_layers: u32,
     pub(crate) targets: Vec<Place>,

@@ -234,8 +234,21 @@ fn packed_has_the_levels_of_the_paper(gpu: &Gpu) {
     let [two, four] = ["packed", "packed.grid=4"].map(|spec| picture(gpu, spec, Bias::Auto));
     assert!(levels(&two) == 5 && in_steps_of(&two, 1.0 / 4.0), "{} levels of 2×2", levels(&two));
     assert!(levels(&four) == 17 && in_steps_of(&four, 1.0 / 16.0), "{} levels of 4×4", levels(&four));
-    let bytes = levels(&picture(gpu, "packed.grid=4,accumulation=bytes", Bias::Auto));
-    assert_eq!(bytes, 20, "levels of 4×4 in bytes");
+    // All ways to shadow 16 texels, phase by phase: the first so many of each 2×2 block.
+    let depth = depth_texture(gpu, Size::square(128), |x, y| {
+        let block = (y / 2 * 64 + x / 2).wrapping_mul(2_654_435_761) >> 8;
+        if y % 2 * 2 + x % 2 < block % 5 { 0.2 } else { 1.0 }
+    });
+    let shown = |spec: &str| {
+        let technique = technique::parse(spec).unwrap();
+        let shadows = shadow_map(gpu, technique.as_ref(), &depth, Size::square(128).into());
+        let corners = (0..62 * 62).map(|i| (2.0 + Vec2::new((i % 62) as f32, (i / 62) as f32) * 2.0) / 128.0);
+        let receivers: Vec<_> = corners.map(|uv| Receiver::point(uv.x, uv.y, 0.5)).collect();
+        levels(&visibility(gpu, &shadows, &receivers))
+    };
+    assert_eq!(shown("packed.grid=4"), 17);
+    assert_eq!(shown("packed.grid=4,accumulation=bytes"), 20);
+    assert_eq!(shown("packed.accumulation=bytes"), 5);
 }
 
 fn stratified_has_as_many_levels_as_samples(gpu: &Gpu) {

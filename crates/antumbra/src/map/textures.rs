@@ -114,26 +114,27 @@ impl Textures {
     /// What a step reads, for one view: layers of one level as an array, or the casters' depth.
     pub(super) fn source(&self, step: &Step, view: u32) -> TextureView {
         let Place { slot, layer, mip } = step.source;
-        let array = |texture: &wgpu::Texture, base_array_layer| {
+        let array = |texture: &wgpu::Texture, base_array_layer, layers| {
             texture.create_view(&TextureViewDescriptor {
                 dimension: Some(TextureViewDimension::D2Array),
                 base_array_layer,
-                array_layer_count: Some(step.source_layers),
+                array_layer_count: Some(layers),
                 base_mip_level: mip,
                 mip_level_count: Some(1),
                 aspect: aspect(texture),
                 ..Default::default()
             })
         };
+        let layers = step.source_layers;
         match slot {
             // Views share one layer unless receivers compare it or it is the caller's.
-            Slot::Casters => array(&self.casters, view.min(self.casters.depth_or_array_layers() - 1)),
+            Slot::Casters => array(&self.casters, view.min(self.casters.depth_or_array_layers() - 1), 1),
             Slot::Casts { first, of, .. } => {
                 let own = self.casters_lifetime == Lifetime::Borrowed;
-                array(&self.casters, if own { view * of + first } else { 0 })
+                array(&self.casters, if own { view * of + first } else { 0 }, layers)
             }
-            Slot::Map(i) => array(&self.maps[i].texture, view * self.maps[i].layers + layer),
-            Slot::Scratch(i) => array(self.maps[i].scratch(), layer),
+            Slot::Map(i) => array(&self.maps[i].texture, view * self.maps[i].layers + layer, layers),
+            Slot::Scratch(i) => array(self.maps[i].scratch(), layer, layers),
         }
     }
 
