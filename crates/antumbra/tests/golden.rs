@@ -236,7 +236,8 @@ fn packed_has_the_levels_of_the_paper(gpu: &Gpu) {
     assert!(levels(&four) == 17 && in_steps_of(&four, 1.0 / 16.0), "{} levels of 4×4", levels(&four));
     // All ways to shadow 16 texels, phase by phase: the first so many of each 2×2 block.
     let depth = depth_texture(gpu, Size::square(128), |x, y| {
-        let block = (y / 2 * 64 + x / 2).wrapping_mul(2_654_435_761) >> 8;
+        let mixed = (y / 2 * 64 + x / 2).wrapping_mul(2_654_435_761);
+        let block = (mixed ^ mixed >> 15).wrapping_mul(2_246_822_519) >> 16;
         if y % 2 * 2 + x % 2 < block % 5 { 0.2 } else { 1.0 }
     });
     let shown = |spec: &str| {
