@@ -169,6 +169,6 @@ fn refusals() {
     folder.run(&["maps", "contact", "-o", "taken"]).refusal(&["taken", "it is a file"]);
     fs::create_dir(folder.0.join("thesis")).unwrap();
     folder.write("thesis/chapter1.tex", b"years of work");
-    folder.run(&["maps", "contact", "-o", "thesis"]).refusal(&["thesis", "maps.json of this program"]);
+    folder.run(&["maps", "contact", "-o", "thesis"]).refusal(&["thesis", "flicker.json of this program"]);
     assert_eq!(folder.names().len(), 3, "nothing is written: {:?}", folder.names());
 }

@@ -327,7 +327,7 @@ fn folders_of_others_are_refused_and_left_alone() {
     let foreign = folder.0.join("foreign");
     fs::create_dir(&foreign).unwrap();
     fs::write(foreign.join("results.json"), "{\"schema\":\"theirs/1\"}").unwrap();
-    assert!(refused(&foreign).contains("no results.json or maps.json of this program"));
+    assert!(refused(&foreign).contains("no results.json or maps.json or flicker.json of this program"));
     let added = folder.0.join("added");
     write(&results(), &added).unwrap();
     fs::write(added.join("notes.txt"), "mine").unwrap();
