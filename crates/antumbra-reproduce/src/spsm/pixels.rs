@@ -4,7 +4,7 @@ use crate::{
     bench::Bench,
     gallery,
     page::{Cell, Page, Table, Unit},
-    raster::{difference, gray},
+    raster::difference,
     study::Truth,
     verdict::{Verdict, at_most, less},
 };
@@ -33,13 +33,12 @@ pub(super) fn figure_6(bench: &Bench<'_>) -> Result<Page> {
         let score = bench.score(&study, spec, truth, None)?;
         table.row(name, [score.acne, Some(score.pixel_match)].map(|v| Cell::ours(v, Unit::Share)).into());
         acne.push(score.acne);
-        pictures.push((name, gray(&study.look(spec)?.visibility()?)));
+        pictures.push((name, &study.look(spec)?.picture));
     }
-    pictures.push(("rays", gray(&truth.plane)));
-    let pictures: Vec<_> = pictures.iter().map(|(name, picture)| (*name, picture)).collect();
+    pictures.push(("rays", &truth.picture));
     let mut page = Page::default();
     let window = gallery::window(&difference(pictures[0].1, pictures[3].1), pictures[0].1, 6);
-    let captions = ["Visibility.", "Enlarged: where the standard map is most wrong."];
+    let captions = ["The scene.", "Enlarged: where the standard map looks most wrong."];
     gallery::rows(&mut page, captions, 4, &pictures, window)?;
     page.table(table);
     page.verdict(slopes_remove_acne(acne[0], acne[1]));
@@ -77,14 +76,13 @@ pub(super) fn figure_11(bench: &Bench<'_>) -> Result<Page> {
         table.row(name, vec![Cell::ours(rmse, Unit::Number), Cell::ours(ratio, Unit::Times)]);
         errors.push(rmse);
         ratios.push(ratio);
-        pictures.push((name, gray(&study.look(spec)?.visibility()?)));
+        pictures.push((name, &study.look(spec)?.picture));
     }
-    pictures.push(("16 rays per pixel", gray(&truth.plane)));
-    let pictures: Vec<_> = pictures.iter().map(|(name, picture)| (*name, picture)).collect();
+    pictures.push(("16 rays per pixel", &truth.picture));
     let mut page = Page::default();
     // Where one sample is most wrong, away from what more samples cannot mend.
     let window = gallery::window(&difference(pictures[1].1, pictures[3].1), pictures[0].1, 12);
-    let captions = ["Visibility.", "Enlarged: where samples matter most."];
+    let captions = ["The scene.", "Enlarged: where samples matter most."];
     gallery::rows(&mut page, captions, 5, &pictures, window)?;
     page.table(table);
     page.verdict(smoother(errors[1], errors[3]));
