@@ -2,7 +2,9 @@
 
 use antumbra::{
     Capabilities, Parameter, Technique, Unsupported, technique,
-    technique::{BiasTerms, Binding, Caster, Class, Constant, DepthSpace, Map, Page, Pass, Uniform, Width},
+    technique::{
+        BiasTerms, Binding, Caster, Class, Constant, Coverage, DepthSpace, Map, Page, Pass, Uniform, Width,
+    },
 };
 
 /// A technique with one thing wrong; everything else is that of `inner`.
@@ -20,6 +22,8 @@ pub struct Broken {
     pub format: Option<wgpu::TextureFormat>,
     /// A bias that it was not made for.
     pub bias: Option<BiasTerms>,
+    /// Texels that triangles are drawn to.
+    pub coverages: Option<&'static [Coverage]>,
     /// Takes one texel where it should interpolate by itself.
     pub careless: bool,
 }
@@ -40,6 +44,7 @@ impl Broken {
             uniform: None,
             format: None,
             bias: None,
+            coverages: None,
             careless: false,
         }
     }
@@ -79,7 +84,7 @@ impl Technique for Broken {
         Ok(maps)
     }
     fn caster(&self) -> Caster {
-        self.inner.caster()
+        self.coverages.map_or_else(|| self.inner.caster(), Caster::Triangles)
     }
     fn bindings(&self) -> Vec<Binding> {
         self.inner.bindings()

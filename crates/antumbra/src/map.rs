@@ -323,7 +323,7 @@ impl ShadowMap {
             multiview_mask: None,
         });
         if let Some(triangles) = &self.triangles {
-            pass.set_pipeline(triangles.pipeline(&self.views[view]));
+            pass.set_pipeline(triangles.pipeline(&self.views[view], layer));
             pass.set_bind_group(0, triangles.group(view, layer), &[]);
         }
         draw(&self.caster_views[view * self.jitter.len() + cast], &mut pass);
@@ -353,12 +353,13 @@ impl ShadowMap {
         triangles.or_else(|| self.lists.as_ref().map(|l| l.cutout(device, technique, wgsl, layouts)))
     }
 
-    /// The pipeline that is set when the closure of [`encode`](Self::encode) is called for `view`, to
-    /// return to it. `None` if casters are depth.
+    /// A pipeline to return to after that one, in the closure of [`encode`](Self::encode). Slower than the
+    /// one that is set when the closure is called: better draw meshes without holes first. `None` if
+    /// casters are depth.
     #[must_use]
     pub fn triangle_caster(&self, view: &View) -> Option<&wgpu::RenderPipeline> {
         let lists = self.lists.as_ref().map(|l| l.pipeline(view));
-        self.triangles.as_ref().map(|t| t.pipeline(view)).or(lists)
+        self.triangles.as_ref().map(|t| &t.general).or(lists)
     }
 
     /// Four `u32` per view, usage `COPY_SRC`, for techniques whose caster is [`Caster::Lists`]: entries

@@ -7,7 +7,7 @@
 
 use crate::{
     capabilities::Capabilities,
-    technique::{Binding, Caster, Constant, DepthSpace, Family, List, Map, Technique},
+    technique::{Binding, Caster, Constant, Coverage, DepthSpace, Family, List, Map, Technique},
 };
 use std::fmt::Write;
 
@@ -260,13 +260,13 @@ pub(crate) fn file(stem: &str) -> &'static str {
 const MESH: &str = include_str!("shader/mesh.wgsl.in");
 
 /// The pass that draws triangles for [`Caster::Triangles`] or [`Caster::Lists`]. `cutout` is the
-/// caller's WGSL that leaves parts of them out; `spot` whether the view is a spot's, `None` if it may be
-/// either.
+/// caller's WGSL that leaves parts of them out; `kind` the texels that it draws to and whether the view is
+/// a spot's, `None` if it may be any.
 pub(crate) fn triangles(
     technique: &dyn Technique,
     device: &Capabilities,
     cutout: Option<&str>,
-    spot: Option<bool>,
+    kind: Option<(Coverage, bool)>,
 ) -> String {
     let mut shader = ShaderText::library(technique, device);
     shader.need("coverage", &[]);
@@ -281,16 +281,17 @@ pub(crate) fn triangles(
             || device.clamps_depth() && line.contains("// unclamped")
     };
     let glue = MESH.lines().chain(pass.lines()).filter(|line| !left_out(line));
-    // Masked code costs on software drivers what it costs where it is needed.
-    let spot = match spot {
-        Some(spot) => spot.to_string(),
-        None => "(caster_view.perspective == 1u)".into(),
+    // What is known beforehand leaves out code that software drivers would run for nothing.
+    let (reach, spot) = match kind {
+        Some((Coverage::Touched, spot)) => ("0.5", spot.to_string()),
+        Some((Coverage::Centre, spot)) => ("0.0", spot.to_string()),
+        None => ("caster_view.reach", "(caster_view.perspective == 1u)".into()),
     };
     let glue: String = glue.flat_map(|line| [line, "\n"]).collect();
     format!(
         "{}\n{text}{}",
         cutout.unwrap_or_default(),
-        glue.replace("{alone}", alone).replace("{spot}", &spot)
+        glue.replace("{alone}", alone).replace("{spot}", &spot).replace("{reach}", reach)
     )
 }
 

@@ -185,8 +185,10 @@ pub(super) fn mesh_layout(device: &wgpu::Device) -> BindGroupLayout {
 /// Pipeline and views of the pass.
 #[derive(Debug)]
 pub(super) struct TriangleCaster {
-    /// Under the sun, under a spot.
-    pipelines: [RenderPipeline; 2],
+    /// Per pass: under the sun, under a spot.
+    pipelines: Vec<[RenderPipeline; 2]>,
+    /// For any pass and view.
+    pub(super) general: RenderPipeline,
     coverages: &'static [Coverage],
     format: TextureFormat,
     size: Size,
@@ -229,13 +231,15 @@ impl TriangleCaster {
                 }],
             })
         };
-        let compiled = |spot| {
-            let shader = shader::triangles(technique, &Capabilities::of(device), None, Some(spot));
+        let compiled = |kind| {
+            let shader = shader::triangles(technique, &Capabilities::of(device), None, kind);
             pipelines.caster(&shader, &[format], |device| compile(device, &shader, format, &layout, &[]))
         };
+        let kinds = |coverage: &Coverage| [false, true].map(|spot| compiled(Some((*coverage, spot))));
         Self {
             groups: (0..slots).map(group).collect(),
-            pipelines: [compiled(false), compiled(true)],
+            pipelines: coverages.iter().map(kinds).collect(),
+            general: compiled(None),
             coverages,
             format,
             size,
@@ -257,9 +261,9 @@ impl TriangleCaster {
         compile(device, &shader, self.format, &own, user)
     }
 
-    /// The pipeline for a view of this kind.
-    pub(super) fn pipeline(&self, view: &View) -> &RenderPipeline {
-        &self.pipelines[perspective(view) as usize]
+    /// The pipeline of a pass for a view of this kind.
+    pub(super) fn pipeline(&self, view: &View, pass: usize) -> &RenderPipeline {
+        &self.pipelines[pass][perspective(view) as usize]
     }
 
     /// Passes per view: layers of the map.

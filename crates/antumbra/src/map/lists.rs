@@ -171,7 +171,12 @@ impl Lists {
             )
         };
         let compiled = |spot| {
-            let shader = shader::triangles(technique, &Capabilities::of(device), None, Some(spot));
+            let shader = shader::triangles(
+                technique,
+                &Capabilities::of(device),
+                None,
+                Some((Coverage::Touched, spot)),
+            );
             pipelines.caster(&shader, &[], |device| compile(device, &shader, &draw_layout, &[]))
         };
         Self {

@@ -2,7 +2,7 @@ use super::*;
 use crate::{
     light::Size,
     pass::plan,
-    technique::{self, Caster, all, parse},
+    technique::{self, Caster, Coverage, all, parse},
 };
 use naga::{
     AddressSpace,
@@ -207,8 +207,11 @@ fn every_composed_receiver_and_pass_validates() {
             if technique.caster() != Caster::Depth {
                 let cutout =
                     "fn caster_covers(triangle: u32, weights: vec3f) -> bool { return weights.x < 0.5; }";
-                for (cutout, spot) in [(None, Some(false)), (None, Some(true)), (Some(cutout), None)] {
-                    let text = triangles(technique.as_ref(), &device, cutout, spot);
+                let known =
+                    [(Coverage::Touched, false), (Coverage::Touched, true), (Coverage::Centre, false)];
+                let known = known.map(|kind| (None, Some(kind)));
+                for (cutout, kind) in known.into_iter().chain([(None, None), (Some(cutout), None)]) {
+                    let text = triangles(technique.as_ref(), &device, cutout, kind);
                     validate(&text).unwrap_or_else(|e| panic!("{spec}: {e}"));
                 }
             }

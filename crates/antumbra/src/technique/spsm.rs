@@ -121,7 +121,6 @@ impl Technique for Spsm {
     }
     fn constants(&self) -> Vec<Constant> {
         vec![
-            Constant::Words("spsm_tangents", (0..256).map(reference::tangents).collect()),
             Constant::Count("spsm_layers", self.layers),
             Constant::Count("spsm_slivers", self.slivers),
             Constant::Count("spsm_samples", self.samples),

@@ -1,9 +1,5 @@
 //! needs coverage packing
 
-/// For each set of shadowed neighbours, bit k for the k-th around a texel (spsm_neighbour): in bits 0
-/// to 7 those that hang together with the texel, in 8 to 10 how many tangents there are, and from 11 on,
-/// five bits each, the directions away from the shadow, in 32nds of a turn.
-const spsm_tangents = array<u32, 1>(0u);
 /// Positions along one side of an uncertain pixel at which the silhouette is asked.
 const spsm_samples: u32 = 1;
 /// Triangles per texel: of those that touch it, the one whose plane is nearest to the light; and the
@@ -29,6 +25,35 @@ fn spsm_neighbour(k: u32) -> vec2i {
     );
 }
 
+/// What a set of shadowed neighbours, bit k for spsm_neighbour(k), says about the shadow's border [Lecocq
+/// et al. 2014, §4.2, figures 7 and 8]. Bits 0 to 7: those that hang together with the texel over common
+/// sides; the others do not count. Each run of lit ones around the ring is one border, and its middle the
+/// direction away from the shadow; a run that reaches more than halfway around is two borders. Bits 8 to
+/// 10: how many; from 11 on, five bits each, their directions in 32nds of a turn, from right over down.
+///
+/// Reckoned, not looked up: software drivers fill an array of constants anew for every invocation.
+fn spsm_tangents(pattern: u32) -> u32 {
+    let sides = pattern & 0x55u;
+    let beside = sides << 1u | sides >> 1u | sides >> 7u | sides << 7u;
+    let kept = sides | (pattern & beside & 0xaau);
+    let lit = ~kept & 0xffu;
+    var starts = select(lit & (kept << 1u | kept >> 7u), 1u, kept == 0u);
+    var count = 0u;
+    var directions = 0u;
+    while starts != 0u {
+        let start = firstTrailingBit(starts);
+        starts &= starts - 1u;
+        let run = (lit >> start | lit << (8u - start)) & 0xffu;
+        let length = firstTrailingBit(~run);
+        let pieces = select(1u, 2u, length > 5u);
+        let first = 4u * start + 30u + 2u * length / pieces;
+        directions |= (first & 31u) << (5u * count);
+        directions |= select(0u, ((first + 2u * length) & 31u) << (5u * count + 5u), pieces == 2u);
+        count += pieces;
+    }
+    return kept | count << 8u | directions << 11u;
+}
+
 /// The words that a texel stores in a layer; none, as an empty texel, beside the map.
 fn spsm_load(map: texture_2d_array<u32>, texel: vec2i, view: u32, layer: u32) -> vec4u {
     let inside = all(texel >= vec2i(0)) && all(texel < vec2i(textureDimensions(map)));
@@ -46,15 +71,21 @@ fn spsm_plane(words: vec4u, point: vec2f, size: vec2f) -> f32 {
     return packing_depth(words) + dot(packing_slope(words) / size, point);
 }
 
+/// Whether a texel holds a triangle whose plane is nearer to the light than the receiver at `at`, relative
+/// to the texel's centre.
+fn spsm_nearer(words: vec4u, at: vec2f, depth: f32, size: vec2f) -> bool {
+    let slack = packing_slack(words);
+    return packing_holds(words) && spsm_plane(words, at, size) + slack.z + dot(slack.xy / size, abs(at)) < depth;
+}
+
 /// Whether the triangle stored by the texel around `centre` is between the light and the receiver at
 /// `point` [Lecocq et al. 2014, Algorithm 1]: nearer, which is asked first, and covering it.
 fn spsm_intersects(words: vec4u, centre: vec2f, point: vec2f, depth: f32, size: vec2f) -> bool {
     let at = point - centre;
-    let slack = packing_slack(words);
-    if !packing_holds(words) || spsm_plane(words, at, size) + slack.z + dot(slack.xy / size, abs(at)) >= depth {
+    if !spsm_nearer(words, at, depth, size) {
         return false;
     }
-    return spsm_covers(packing_lines(words, centre, size), point - centre);
+    return spsm_covers(packing_lines(words, centre, size), at);
 }
 
 /// Least of `gain`·(x, 1) over the part of a triangle that is in its texel, x relative to the centre: the
@@ -98,67 +129,18 @@ fn spsm_least(lines: mat3x3f, gain: vec3f) -> f32 {
     return least;
 }
 
-/// Whether a texel holds a triangle that somewhere in it is nearer to the light than the receiver's
-/// plane, given as depth at the texel's centre and gain per texel.
-fn spsm_occludes(words: vec4u, centre: vec2f, receiver: vec3f, size: vec2f) -> bool {
-    if !packing_holds(words) {
-        return false;
-    }
+/// Whether a texel holds a triangle, with these edges, that somewhere in it is nearer to the light than
+/// the receiver's plane, given as depth at the texel's centre and gain per texel.
+fn spsm_occludes(words: vec4u, lines: mat3x3f, receiver: vec3f, size: vec2f) -> bool {
     let slack = packing_slack(words);
     let sure = vec3f(0.0, 0.0, slack.z + dot(slack.xy, 0.5 / size));
     let gain = vec3f(packing_slope(words) / size, packing_depth(words)) + sure - receiver;
-    return spsm_least(packing_lines(words, centre, size), gain) < 0.0;
+    return packing_holds(words) && spsm_least(lines, gain) < 0.0;
 }
 
-/// One of the classes above [Lecocq et al. 2014, §4.1]. Bindings and arguments as spsm_visibility.
-fn spsm_class(map: texture_2d_array<u32>, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f) -> u32 {
-    let size = vec2f(textureDimensions(map));
-    let point = uv * size;
-    let texel = vec2i(floor(point));
-    let centre = floor(point) + 0.5;
-    let words = spsm_load(map, texel, view, 0u);
-    // No triangle touches this texel.
-    if !packing_holds(words) {
-        return spsm_lit;
-    }
-    if spsm_intersects(words, centre, point, depth, size) {
-        return spsm_shadowed;
-    }
-    for (var layer = 0u; layer < spsm_layers; layer += 1u) {
-        for (var k = 0u; k < 9u; k += 1u) {
-            let step = select(spsm_neighbour(k), vec2i(0), k == 8u);
-            let there = centre + vec2f(step);
-            let words = spsm_load(map, texel + step, view, layer);
-            if spsm_intersects(words, there, point, depth, size) && (k == 8u || !packing_alone(words, there, size)) {
-                return spsm_around;
-            }
-        }
-    }
-    // On the stored triangle, or nothing in this texel is nearer to the light than the receiver.
-    let gain = plane / size;
-    let receiver = vec3f(gain, depth + dot(gain, centre - point));
-    let own = spsm_covers(packing_lines(words, centre, size), point - centre);
-    return select(spsm_uncertain, spsm_lit, own || !spsm_occludes(words, centre, receiver, size));
-}
-
-/// The neighbours of a texel that hold an occluder, bit k for spsm_neighbour(k). `receiver` is the
-/// receiver's plane as gain per texel and depth at the centre.
-fn spsm_pattern(map: texture_2d_array<u32>, texel: vec2i, view: u32, receiver: vec3f, size: vec2f) -> u32 {
-    var pattern = 0u;
-    for (var k = 0u; k < 8u; k += 1u) {
-        let step = spsm_neighbour(k);
-        let words = spsm_load(map, texel + step, view, 0u);
-        let there = receiver + vec3f(0.0, 0.0, dot(receiver.xy, vec2f(step)));
-        let occludes = spsm_occludes(words, vec2f(texel + step) + 0.5, there, size);
-        pattern |= select(0u, 1u << k, occludes);
-    }
-    return pattern;
-}
-
-/// Whether a texel holds a triangle that is less than half a texel across there: two of its edges face
-/// away from each other so closely.
-fn spsm_sliver(words: vec4u, centre: vec2f, size: vec2f) -> bool {
-    let lines = packing_lines(words, centre, size);
+/// Whether a texel holds no triangle, or one that is less than half a texel across there: two of its
+/// edges face away from each other so closely.
+fn spsm_sliver(words: vec4u, lines: mat3x3f) -> bool {
     var sliver = !packing_holds(words);
     for (var k = 0u; k < 3u; k += 1u) {
         let a = lines[k];
@@ -168,27 +150,82 @@ fn spsm_sliver(words: vec4u, centre: vec2f, size: vec2f) -> bool {
     return sliver;
 }
 
-/// Whether the casters around a texel are too fine for their silhouette to be recovered: `kept` are the
-/// neighbours that count.
-fn spsm_unresolved(map: texture_2d_array<u32>, texel: vec2i, view: u32, kept: u32, size: vec2f) -> bool {
-    var slivers = 0u;
-    for (var k = 0u; k < 9u; k += 1u) {
-        if ((kept | 256u) >> k & 1u) == 1u {
-            let there = texel + select(spsm_neighbour(k), vec2i(0), k == 8u);
-            let words = spsm_load(map, there, view, 0u);
-            slivers += select(0u, 1u, spsm_sliver(words, vec2f(there) + 0.5, size));
+/// Where the e-th of nine texels in each layer is: the eight around a texel, then it itself.
+fn spsm_step(entry: u32) -> vec2i {
+    let k = entry % 9u;
+    return select(spsm_neighbour(k), vec2i(0), k == 8u);
+}
+
+/// One of the classes above [Lecocq et al. 2014, §4.1]. Bindings and arguments as spsm_visibility.
+///
+/// Where a receiver's own texel shows it to be lit, a triangle that the texel does not store may still be
+/// in between: one that the other layer stores there, or one of the three texels next to the receiver.
+fn spsm_class(map: texture_2d_array<u32>, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f) -> u32 {
+    let size = vec2f(textureDimensions(map));
+    let point = uv * size;
+    let texel = vec2i(floor(point));
+    let centre = floor(point) + 0.5;
+    let at = point - centre;
+    let words = spsm_load(map, texel, view, 0u);
+    // No triangle touches this texel.
+    if !packing_holds(words) {
+        return spsm_lit;
+    }
+    let lines = packing_lines(words, centre, size);
+    let covered = spsm_covers(lines, at);
+    if covered && spsm_nearer(words, at, depth, size) {
+        return spsm_shadowed;
+    }
+    // On the stored triangle, or nothing in this texel is nearer to the light than the receiver.
+    let gain = plane / size;
+    let receiver = vec3f(gain, depth - dot(gain, at));
+    let lit = covered || !spsm_occludes(words, lines, receiver, size);
+    let side = select(vec2i(-1), vec2i(1), at >= vec2f(0.0));
+    var clear = lit;
+    for (var k = 1u; clear && k < 3u + spsm_layers; k += 1u) {
+        let step = vec2i(vec2u(k & 1u, k >> 1u & 1u)) * side;
+        let words = spsm_load(map, texel + step, view, k >> 2u);
+        clear = !spsm_nearer(words, at - vec2f(step), depth, size);
+    }
+    if clear {
+        return spsm_lit;
+    }
+    for (var entry = 0u; entry < 9u * spsm_layers; entry += 1u) {
+        let step = spsm_step(entry);
+        let there = centre + vec2f(step);
+        let words = spsm_load(map, texel + step, view, entry / 9u);
+        let own = entry % 9u == 8u;
+        if spsm_intersects(words, there, point, depth, size) && (own || !packing_alone(words, there, size)) {
+            return spsm_around;
         }
     }
-    return slivers >= spsm_slivers;
+    return select(spsm_uncertain, spsm_lit, lit);
+}
+
+/// The nine texels around a receiver in all layers, bit e for spsm_step(e): in x those that hold an
+/// occluder, in y those that hold no triangle or a sliver. `receiver` is the receiver's plane as gain per
+/// texel and depth at the centre.
+fn spsm_casters(map: texture_2d_array<u32>, texel: vec2i, view: u32, receiver: vec3f, size: vec2f) -> vec2u {
+    var found = vec2u(0u);
+    for (var entry = 0u; entry < 9u * spsm_layers; entry += 1u) {
+        let step = spsm_step(entry);
+        let words = spsm_load(map, texel + step, view, entry / 9u);
+        let lines = packing_lines(words, vec2f(texel + step) + 0.5, size);
+        let there = receiver + vec3f(0.0, 0.0, dot(receiver.xy, vec2f(step)));
+        let bits = vec2<bool>(spsm_occludes(words, lines, there, size), spsm_sliver(words, lines));
+        found |= select(vec2u(0u), vec2u(1u << entry), bits);
+    }
+    return found;
 }
 
 /// Share of the four nearest texels, with bilinear weights, whose centres are lit: what an ordinary
 /// shadow map knows.
-fn spsm_ordinary(map: texture_2d_array<u32>, point: vec2f, view: u32, depth: f32, gain: vec2f, size: vec2f) -> f32 {
+fn spsm_ordinary(map: texture_2d_array<u32>, point: vec2f, view: u32, depth: f32, gain: vec2f, size: vec2f, texels: u32) -> f32 {
     let corner = floor(point - 0.5);
     let weight = point - 0.5 - corner;
     var lit = 0.0;
-    for (var k = 0u; k < 4u; k += 1u) {
+    // As many as it takes: unrolled it would burden receivers that do not need it on software drivers.
+    for (var k = 0u; k < texels; k += 1u) {
         let step = vec2f(f32(k & 1u), f32(k >> 1u));
         let centre = corner + step + 0.5;
         let words = spsm_load(map, vec2i(corner + step), view, spsm_layers - 1u);
@@ -202,27 +239,21 @@ fn spsm_ordinary(map: texture_2d_array<u32>, point: vec2f, view: u32, depth: f32
 /// The silhouette on both sides of a point, from the corners whose outward normals point along `normal`,
 /// which leads away from the shadow [Lecocq et al. 2014, §4.2, figure 10]: place along the tangent and
 /// height along the normal of the nearest corner before the point, in xy, and behind it, in zw, relative
-/// to the point. Places beyond ±1e8 mean that there is none. `receiver` and `kept` as in spsm_pattern.
-fn spsm_silhouette(map: texture_2d_array<u32>, point: vec2f, view: u32, receiver: vec3f, kept: u32, normal: vec2f, size: vec2f) -> vec4f {
+/// to the point. Places beyond ±1e8 mean that there is none. `entries` as spsm_casters finds them.
+fn spsm_silhouette(map: texture_2d_array<u32>, point: vec2f, view: u32, entries: u32, normal: vec2f, size: vec2f) -> vec4f {
     let texel = vec2i(floor(point));
     var nearest = vec4f(-1e9, 0.0, 1e9, 0.0);
-    for (var entry = 0u; entry < 9u * spsm_layers; entry += 1u) {
-        let k = entry % 9u;
-        let step = select(spsm_neighbour(k), vec2i(0), k == 8u);
-        if ((kept | 256u) >> k & 1u) == 0u {
-            continue;
-        }
+    for (var left = entries; left != 0u; left &= left - 1u) {
+        let entry = firstTrailingBit(left);
+        let step = spsm_step(entry);
         let there = vec2f(texel + step) + 0.5;
         let words = spsm_load(map, texel + step, view, entry / 9u);
-        let plane = receiver + vec3f(0.0, 0.0, dot(receiver.xy, vec2f(step)));
-        if packing_alone(words, there, size) || !spsm_occludes(words, there, plane, size) {
-            continue;
-        }
         let lines = packing_lines(words, there, size);
+        let alone = packing_alone(words, there, size);
         for (var c = 0u; c < 3u; c += 1u) {
             let corner = packing_corner(words, lines, c, there, size);
             let outward = lines[(c + 1u) % 3u].xy + lines[(c + 2u) % 3u].xy;
-            if corner.z == 0.0 || dot(outward, normal) <= 0.0 {
+            if alone || corner.z == 0.0 || dot(outward, normal) <= 0.0 {
                 continue;
             }
             let away = corner.xy + there - point;
@@ -245,18 +276,20 @@ fn spsm_recover(map: texture_2d_array<u32>, point: vec2f, view: u32, depth: f32,
     let size = vec2f(textureDimensions(map));
     let texel = vec2i(floor(point));
     let receiver = vec3f(gain, depth + dot(gain, floor(point) + 0.5 - point));
-    let entry = spsm_tangents[spsm_pattern(map, texel, view, receiver, size)];
-    let kept = entry & 255u;
-    let count = entry >> 8u & 7u;
-    if spsm_layers > 1u && (count == 0u || spsm_unresolved(map, texel, view, kept, size)) {
-        return select(0.0, 1.0, spsm_ordinary(map, point, view, depth, gain, size) >= 0.5);
+    let casters = spsm_casters(map, texel, view, receiver, size);
+    let tangents = spsm_tangents(casters.x & 255u);
+    let kept = tangents & 255u | 256u;
+    let count = tangents >> 8u & 7u;
+    let unresolved = spsm_layers > 1u && (count == 0u || countOneBits(casters.y & kept) >= spsm_slivers);
+    if unresolved {
+        return select(0.0, 1.0, spsm_ordinary(map, point, view, depth, gain, size, select(0u, 4u, unresolved)) >= 0.5);
     }
     let every = (1u << (spsm_samples * spsm_samples)) - 1u;
     var shadowed = every;
     for (var i = 0u; i < count; i += 1u) {
-        let angle = f32(entry >> (11u + 5u * i) & 31u) * (6.283185307179586 / 32.0);
+        let angle = f32(tangents >> (11u + 5u * i) & 31u) * (6.283185307179586 / 32.0);
         let normal = vec2f(cos(angle), sin(angle));
-        let nearest = spsm_silhouette(map, point, view, receiver, kept, normal, size);
+        let nearest = spsm_silhouette(map, point, view, casters.x & (kept | kept << 9u), normal, size);
         if nearest.x < -1e8 || nearest.z > 1e8 {
             return 1.0;
         }

@@ -207,11 +207,11 @@ pub(crate) fn spsm_finds_least_depths(gpu: &Gpu) {
     assert!(wrong(-1.0) > 1000, "{}", wrong(-1.0));
 }
 
-/// The table reaches the GPU as it was generated, and the k-th neighbour lies in the k-th direction.
+/// Tangents are reckoned as the reference does, for all 256 patterns, and the k-th neighbour lies in the k-th direction.
 pub(crate) fn spsm_tangents(gpu: &Gpu) {
     let rows: Vec<Row> = (0..256).map(|i| row([i as f32])).collect();
     let body = "
-        let entry = spsm_tangents[u32(take(0u))];
+        let entry = spsm_tangents(u32(take(0u)));
         put(0u, f32(entry & 65535u));
         put(1u, f32(entry >> 16u));
         put2(2u, vec2f(spsm_neighbour(u32(take(0u)) % 8u)));";

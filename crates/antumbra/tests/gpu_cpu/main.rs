@@ -12,6 +12,7 @@ mod geometry;
 mod lists;
 mod lookups;
 mod receiver;
+mod silhouettes;
 mod stored;
 
 use antumbra::{Capabilities, Size, Technique, technique, technique::Encode};
@@ -182,6 +183,8 @@ fn main() {
     trials.add("lists without room are cut", lists::lists_without_room_are_cut);
     trials.add("lists tell their memory", lists::lists_tell_their_memory);
     trials.add("exact intersects", lists::exact_intersects);
+    trials.add("silhouettes of fine meshes are recovered", silhouettes::fine_meshes);
+    trials.add("holes of cut-outs stay open", silhouettes::holes_stay_open);
     trials.add("triangles that reach behind a spot are cut", geometry::triangles_behind_a_spot_are_cut);
     trials.run();
 }

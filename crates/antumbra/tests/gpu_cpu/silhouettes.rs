@@ -1,0 +1,141 @@
+//! What sub-pixel shadow maps answer near the border of a shadow, against the border itself.
+
+use crate::common::{Random, Receiver, caster_mesh, view, visibility};
+use antumbra::{ShadowMap, Size, Technique, technique::Coverage};
+use antumbra_testing::{Gpu, broken::Broken};
+use glam::{Vec2, Vec3};
+
+/// Texels across.
+const MAP: Size = Size::square(64);
+/// In texels.
+const CENTRE: Vec2 = Vec2::new(32.3, 31.6);
+const RADIUS: f32 = 18.0;
+/// Corners of the disc's border.
+const SIDES: u32 = 96;
+const RINGS: u32 = 24;
+
+/// A place in texels on the map, as seen by `view`.
+fn placed(texels: Vec2, depth: f32) -> Vec3 {
+    let uv = texels / MAP.width as f32;
+    Vec3::new(2.0 * uv.x - 1.0, 1.0 - 2.0 * uv.y, depth)
+}
+
+fn rim(ring: u32, side: u32) -> Vec2 {
+    let angle = (side % SIDES) as f32 / SIDES as f32 * std::f32::consts::TAU;
+    CENTRE + RADIUS * ring as f32 / RINGS as f32 * Vec2::from_angle(angle)
+}
+
+/// A disc of triangles that are around a texel long.
+fn disc() -> Vec<Vec3> {
+    let mut corners = Vec::new();
+    for (ring, side) in (0..RINGS).flat_map(|ring| (0..SIDES).map(move |side| (ring, side))) {
+        let [a, b] = [rim(ring, side), rim(ring, side + 1)];
+        let [c, d] = [rim(ring + 1, side), rim(ring + 1, side + 1)];
+        corners.extend([a, c, d, a, d, b]);
+    }
+    corners.into_iter().map(|p| placed(p, 0.3)).collect()
+}
+
+/// Points within two texels of the disc's border, and whether they are inside.
+fn around(random: &mut Random) -> Vec<(Vec2, bool)> {
+    let inside = |p: Vec2| {
+        (0..SIDES).all(|side| (rim(RINGS, side + 1) - rim(RINGS, side)).perp_dot(p - rim(RINGS, side)) > 0.0)
+    };
+    let mut point = || {
+        let angle = Vec2::from_angle(random.range(0.0, std::f32::consts::TAU));
+        CENTRE + angle * (RADIUS + random.range(-2.0, 2.0))
+    };
+    (0..4000).map(|_| point()).map(|p| (p, inside(p))).collect()
+}
+
+fn answers(
+    gpu: &Gpu,
+    technique: &dyn Technique,
+    casters: &[Vec3],
+    cutout: Option<&str>,
+    points: &[Vec2],
+) -> Vec<f32> {
+    let mesh = caster_mesh(gpu, casters);
+    let mut shadows = ShadowMap::new(&gpu.device, technique, MAP).unwrap();
+    shadows.prepare(&gpu.queue, &[view(MAP)]).unwrap();
+    let cutout = cutout.and_then(|wgsl| shadows.cutout_caster(&gpu.device, wgsl, &[]));
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    shadows.encode(&mut encoder, |view, pass| {
+        if let Some(pipeline) = &cutout {
+            pass.set_pipeline(pipeline);
+        }
+        mesh.draw(view, pass);
+    });
+    gpu.queue.submit([encoder.finish()]);
+    let receiver = |p: &Vec2| {
+        let uv = *p / MAP.width as f32;
+        Receiver::point(uv.x, uv.y, 0.8)
+    };
+    visibility(gpu, &shadows, &points.iter().map(receiver).collect::<Vec<_>>())
+}
+
+/// Of a disc of small triangles, few points within two texels of the border are answered wrongly: bounds are
+/// what was measured and a fifth. That takes every step; without one there are more.
+pub(crate) fn fine_meshes(gpu: &Gpu) {
+    let points = around(&mut Random::new(27));
+    let places: Vec<Vec2> = points.iter().map(|p| p.0).collect();
+    let wrong = |technique: &dyn Technique| {
+        let found = answers(gpu, technique, &disc(), None, &places);
+        let wrong = points.iter().zip(found).filter(|(p, f)| (*f < 0.5) != p.1).count();
+        wrong as f64 / points.len() as f64
+    };
+    const MOST: f64 = 0.0336;
+    let whole =
+        [("spsm", MOST), ("spsm.packing=texel", MOST), ("spsm.packing=map", MOST), ("spsm.layers=1", 0.065)];
+    for (spec, most) in whole {
+        let share = wrong(&Broken::new(spec));
+        assert!(share < most, "{spec}: {share}");
+    }
+    let normal = "vec2f(cos(angle), sin(angle))";
+    let centres: &[Coverage] = &[Coverage::Centre, Coverage::Centre];
+    let broken = [
+        ("a flipped tangent", Broken::saying("spsm", normal, &format!("-{normal}"))),
+        ("no neighbourhood", Broken::saying("spsm", "return spsm_around", "continue")),
+        ("no silhouette", Broken::saying("spsm", "return spsm_recover(", "return 1.0 + 0.0 * spsm_recover(")),
+        ("triangles at centres", Broken { coverages: Some(centres), ..Broken::new("spsm") }),
+    ];
+    for (what, broken) in broken {
+        let share = wrong(&broken);
+        assert!(share > MOST, "{what}: {share}");
+    }
+}
+
+/// A square with a round hole: lit through it, shadowed beside it, from a texel's diagonal off its border
+/// on; no triangle with holes may speak for neighbouring texels.
+pub(crate) fn holes_stay_open(gpu: &Gpu) {
+    let [low, high] = [8.0, 56.0];
+    let square = [
+        Vec2::new(low, low),
+        Vec2::new(high, low),
+        Vec2::new(high, high),
+        Vec2::new(low, low),
+        Vec2::new(high, high),
+        Vec2::new(low, high),
+    ];
+    let casters: Vec<Vec3> = square.iter().map(|p| placed(*p, 0.3)).collect();
+    let mut random = Random::new(28);
+    let points: Vec<Vec2> =
+        (0..4000).map(|_| Vec2::new(random.range(10.0, 54.0), random.range(10.0, 54.0))).collect();
+    // Corner 0 of both triangles is the low one: places in the square are sums over the others.
+    let holed = "
+        fn caster_covers(triangle: u32, weights: vec3f) -> bool {
+            let place = select(vec2f(weights.y + weights.z, weights.z), vec2f(weights.y, weights.y + weights.z), triangle == 1u);
+            return distance(place, vec2f(0.5)) > 0.25;
+        }";
+    let whole = "fn caster_covers(triangle: u32, weights: vec3f) -> bool { return true; }";
+    let wrong = |technique: &dyn Technique, wgsl| {
+        let found = answers(gpu, technique, &casters, Some(wgsl), &points);
+        let off = |p: &Vec2| p.distance(Vec2::splat(32.0)) - 0.25 * (high - low);
+        let clear = points.iter().zip(found).filter(|(p, _)| off(p).abs() > 1.5);
+        clear.filter(|(p, f)| (*f < 0.5) != (off(p) > 0.0)).count()
+    };
+    for spec in ["spsm", "spsm.layers=1", "spsm.packing=map"] {
+        assert_eq!(wrong(&Broken::new(spec), holed), 0, "{spec}");
+    }
+    assert!(wrong(&Broken::new("spsm"), whole) > 400, "a square without a hole");
+}
