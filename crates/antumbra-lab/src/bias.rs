@@ -15,7 +15,7 @@ use anyhow::{Context, Result};
 use glam::DVec3;
 use rayon::prelude::*;
 use serde::Serialize;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, btree_map::Entry};
 
 /// Width of a bin of gaps between receiver and caster, texels.
 const BIN_TEXELS: f64 = 0.5;
@@ -91,14 +91,14 @@ pub fn study(gpu: &Gpu, request: &Request<'_>, progress: &dyn Progress) -> Resul
     let mut ideals: BTreeMap<u32, Visibility> = BTreeMap::new();
     for technique in request.techniques {
         let width = kernel(technique.as_ref());
-        if !ideals.contains_key(&width) {
+        if let Entry::Vacant(place) = ideals.entry(width) {
             progress.step(&format!("truth: kernel of {width}"));
             let taps =
                 Kernel::new(Weights::Gaussian, width, 0.0).taps.iter().map(|w| f64::from(*w)).collect();
             let taps = antumbra_truth::Kernel::new(taps)?;
-            let ideal =
-                tracer.light_space_ideal(&rays, light, &taps, &map_plane(&view), &|s| progress.share(s));
-            ideals.insert(width, ideal);
+            place.insert(
+                tracer.light_space_ideal(&rays, light, &taps, &map_plane(&view), &|s| progress.share(s)),
+            );
         }
     }
     let mut encoder = gpu.device.create_command_encoder(&Default::default());

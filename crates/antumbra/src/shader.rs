@@ -140,10 +140,6 @@ impl ShaderText {
                 let list: Vec<String> = values.iter().map(|v| format!("{v:?}")).collect();
                 (name, format!("const {name} = array<f32, {}>({});", values.len(), list.join(", ")))
             }
-            Constant::Words(name, values) => {
-                let list: Vec<String> = values.iter().map(|v| format!("{v}u")).collect();
-                (name, format!("const {name} = array<u32, {}>({});", values.len(), list.join(", ")))
-            }
         };
         let starts = [format!("const {name} "), format!("const {name}:")];
         let mut replaced = 0;

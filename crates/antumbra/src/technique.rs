@@ -189,8 +189,6 @@ pub enum Constant {
     Number(&'static str, f32),
     /// `const NAME = array<f32, n>(…);`
     Array(&'static str, Vec<f32>),
-    /// `const NAME = array<u32, n>(…);`
-    Words(&'static str, Vec<u32>),
 }
 
 /// A kind of pixel that a technique tells apart, for debug views.

@@ -243,7 +243,6 @@ fn every_constant_replaces_exactly_one_declaration() {
                 let (name, value) = match &constant {
                     Constant::Count(name, n) => (*name, format!("= {n}u;")),
                     Constant::Number(name, x) => (*name, format!("= {x:?};")),
-                    Constant::Words(name, values) => (*name, format!("array<u32, {}>", values.len())),
                     Constant::Array(name, values) => (*name, format!("array<f32, {}>", values.len())),
                 };
                 assert_eq!(declarations(&text, name), 1, "{name}");
