@@ -155,7 +155,7 @@ impl Look {
     /// Visibility in each pixel.
     ///
     /// # Errors
-    /// Never for a look that a [`Bench`] made.
+    /// Never for a look that a [`Bench`](crate::bench::Bench) made.
     pub fn visibility(&self) -> Result<Plane> {
         let [width, height] = self.picture.size;
         Ok(Plane::new(width, height, self.visibility.clone())?)
