@@ -1,14 +1,14 @@
 //! What biases cost and give: acne against detached shadows.
 
 use crate::{
-    compare::{Progress, enter_biased, map_plane},
+    compare::{Progress, enter_biased, ideal_kernel, map_plane},
     gpu::Gpu,
     lighting::Lighting,
     metrics::LIT_THRESHOLD,
     plane::Plane,
     stage::Stage,
 };
-use antumbra::{Kernel, Technique, View, Weights, technique, technique::Bias};
+use antumbra::{Technique, View, technique, technique::Bias};
 use antumbra_scene::{Camera, Geometry, Light};
 use antumbra_truth::{CameraRays, Hit, Ray, Tracer, Visibility};
 use anyhow::{Context, Result};
@@ -93,9 +93,7 @@ pub fn study(gpu: &Gpu, request: &Request<'_>, progress: &dyn Progress) -> Resul
         let width = kernel(technique.as_ref());
         if let Entry::Vacant(place) = ideals.entry(width) {
             progress.step(&format!("truth: kernel of {width}"));
-            let taps =
-                Kernel::new(Weights::Gaussian, width, 0.0).taps.iter().map(|w| f64::from(*w)).collect();
-            let taps = antumbra_truth::Kernel::new(taps)?;
+            let taps = ideal_kernel(width)?;
             place.insert(
                 tracer.light_space_ideal(&rays, light, &taps, &map_plane(&view), &|s| progress.share(s)),
             );
@@ -108,9 +106,7 @@ pub fn study(gpu: &Gpu, request: &Request<'_>, progress: &dyn Progress) -> Resul
     let mut rows = Vec::with_capacity(contestants.len());
     for (contestant, (technique, bias)) in contestants.iter().zip(&entries) {
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        let shadows = &contestant.shadows;
-        shadows.encode(&mut encoder, |view, pass| stage.draw_casters(&contestant.casters, view, pass));
-        lighting.encode_lookup(&mut encoder, &stage, &contestant.lookup, Some(shadows), None);
+        contestant.encode(&mut encoder, &stage, &lighting);
         gpu.finish(encoder)?;
         let test = lighting.read_visibility(gpu)?;
         let ideal = ideals.get(&kernel(technique.as_ref())).context("an ideal for every kernel")?;

@@ -12,7 +12,7 @@ use crate::{
     stage::Stage,
     timing::{self, Entrant},
 };
-use antumbra::{Bounds, Cascades, ShadowMap, Technique, View, technique};
+use antumbra::{Bounds, Cascades, Kernel, ShadowMap, Technique, View, Weights, technique};
 use antumbra_scene::{Aabb, Camera, Geometry, Light};
 use antumbra_truth::MapPlane;
 use anyhow::{Context, Result, bail};
@@ -164,6 +164,15 @@ pub fn view_from(camera: Mat4, scene: Aabb, light: &Light, shadows: &[&ShadowMap
     views.first().copied().context("the light has no view")
 }
 
+/// The Gaussian of the light-space ideal, `width` texels wide: with the weights that techniques blur with.
+///
+/// # Errors
+/// A width of 0.
+pub fn ideal_kernel(width: u32) -> Result<antumbra_truth::Kernel> {
+    let taps = Kernel::new(Weights::Gaussian, width, 0.0).taps;
+    Ok(antumbra_truth::Kernel::new(taps.into_iter().map(f64::from).collect())?)
+}
+
 /// How the texels of a view lie in the world, for the light-space ideal.
 #[must_use]
 pub fn map_plane(view: &View) -> MapPlane {
@@ -240,8 +249,7 @@ fn render(
 ) -> Result<Rendered> {
     let shadows = &contestant.shadows;
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    shadows.encode(&mut encoder, |view, pass| stage.draw_casters(&contestant.casters, view, pass));
-    lighting.encode_lookup(&mut encoder, stage, &contestant.lookup, Some(shadows), None);
+    contestant.encode(&mut encoder, stage, lighting);
     lighting.encode_picture(&mut encoder, stage);
     gpu.finish(encoder)?;
     let test = lighting.read_visibility(gpu)?;

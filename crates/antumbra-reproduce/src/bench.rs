@@ -6,7 +6,7 @@ use crate::{
     raster::Raster,
     study::{File, Look, Moving, Shot, Study, StudyFile, Traced, TracedFile, Truth, ViewFacts},
 };
-use antumbra::{Kernel, ShadowMap, Technique, Weights, technique, technique::Bias};
+use antumbra::{ShadowMap, Technique, technique, technique::Bias};
 use antumbra_lab::{
     classes,
     compare::{self, Contestant, Progress},
@@ -131,10 +131,7 @@ impl<'a> Bench<'a> {
     /// # Errors
     /// Unknown techniques or settings; settings that the device cannot do.
     pub fn study(&self, shot: Shot, map: u32, specs: &[&str]) -> Result<Study> {
-        let key = ("study", shot, map, specs);
-        let file = self.cache.memo(&key, || self.draw(&shot, map, specs, Bias::Auto))?;
-        let key = serde_json::to_string(&key)?;
-        Ok(Study { shot, map, looks: file.looks, view: file.view, key })
+        self.study_biased(shot, map, specs, Bias::Auto)
     }
 
     /// The same with one bias for all techniques instead of each one's own.
@@ -142,7 +139,7 @@ impl<'a> Bench<'a> {
     /// # Errors
     /// As [`study`](Self::study); a bias that is not finite.
     pub fn study_biased(&self, shot: Shot, map: u32, specs: &[&str], bias: Bias) -> Result<Study> {
-        let key = ("study, biased", shot, map, specs, bias.to_string());
+        let key = ("study", shot, map, specs, bias.to_string());
         let file = self.cache.memo(&key, || self.draw(&shot, map, specs, bias))?;
         let key = serde_json::to_string(&key)?;
         Ok(Study { shot, map, looks: file.looks, view: file.view, key })
@@ -226,7 +223,13 @@ impl<'a> Bench<'a> {
                             right_per_texel: DVec3::from(study.view.right),
                             down_per_texel: DVec3::from(study.view.down),
                         };
-                        tracer.light_space_ideal(&rays, light, &gaussian(*kernel)?, &map, &report)
+                        tracer.light_space_ideal(
+                            &rays,
+                            light,
+                            &compare::ideal_kernel(*kernel)?,
+                            &map,
+                            &report,
+                        )
                     }
                     Truth::ScreenSpace(grid) => tracer.supersampled(&rays, light, *grid, &report),
                 };
@@ -451,8 +454,7 @@ impl<'a> Bench<'a> {
 fn look(gpu: &Gpu, stage: &Stage, lighting: &Lighting, contestant: &Contestant, spec: &str) -> Result<Look> {
     let shadows: &ShadowMap = &contestant.shadows;
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    shadows.encode(&mut encoder, |view, pass| stage.draw_casters(&contestant.casters, view, pass));
-    lighting.encode_lookup(&mut encoder, stage, &contestant.lookup, Some(shadows), None);
+    contestant.encode(&mut encoder, stage, lighting);
     lighting.encode_picture(&mut encoder, stage);
     gpu.finish(encoder)?;
     let visibility = lighting.read_visibility(gpu)?;
@@ -486,10 +488,4 @@ fn name(truth: Truth) -> String {
         Truth::LightSpace(kernel) => format!("light-space ideal of {kernel}×{kernel}"),
         Truth::ScreenSpace(grid) => format!("screen-space ideal of {grid}×{grid}"),
     }
-}
-
-/// The blur's weights, as techniques have them.
-fn gaussian(kernel: u32) -> Result<antumbra_truth::Kernel> {
-    let taps = Kernel::new(Weights::Gaussian, kernel, 0.0).taps;
-    Ok(antumbra_truth::Kernel::new(taps.iter().map(|w| f64::from(*w)).collect())?)
 }

@@ -63,9 +63,7 @@ pub(crate) fn run(arguments: &Render) -> Result<()> {
             lighting.write_visibility(&gpu, &Plane::new(width, height, hard.values)?);
         }
         Some(contestant) => {
-            let shadows = &contestant.shadows;
-            shadows.encode(&mut encoder, |view, pass| stage.draw_casters(&contestant.casters, view, pass));
-            lighting.encode_lookup(&mut encoder, &stage, &contestant.lookup, Some(shadows), None);
+            contestant.encode(&mut encoder, &stage, &lighting);
         }
     }
     lighting.encode_picture(&mut encoder, &stage);

@@ -26,6 +26,12 @@ pub struct Contestant {
 }
 
 impl Contestant {
+    /// Draws its maps and, on the surfaces that the stage already holds, its visibility.
+    pub fn encode(&self, encoder: &mut wgpu::CommandEncoder, stage: &Stage, lighting: &Lighting) {
+        self.shadows.encode(encoder, |view, pass| stage.draw_casters(&self.casters, view, pass));
+        lighting.encode_lookup(encoder, stage, &self.lookup, Some(&self.shadows), None);
+    }
+
     /// Class of every pixel, as [`shares`](crate::classes::shares) takes them, if the technique has
     /// any. Its maps and the stage's surfaces are drawn; overwrites the visibility buffer.
     ///

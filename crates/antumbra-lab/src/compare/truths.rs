@@ -1,6 +1,6 @@
 //! The truths of a comparison, and the parts of the picture that are scored on their own.
 
-use super::{Progress, Request, map_plane};
+use super::{Progress, Request, ideal_kernel, map_plane};
 use crate::{
     gpu::Gpu,
     metrics,
@@ -9,7 +9,7 @@ use crate::{
     results::{TruthFacts, TruthImages},
     stage::Stage,
 };
-use antumbra::{Kernel, View, Weights};
+use antumbra::View;
 use antumbra_truth::{CameraRays, Coverage, CoverageTolerance, Hit, Tracer, Visibility};
 use anyhow::Result;
 use std::{collections::BTreeMap, time::Instant};
@@ -66,9 +66,7 @@ pub(super) fn trace(
     let regions = regions(&tracer, &hits, &hard.shadowable, light, near);
     progress.step("truth: light-space ideal");
     clock.lap();
-    let taps =
-        Kernel::new(Weights::Gaussian, request.kernel, 0.0).taps.iter().map(|w| f64::from(*w)).collect();
-    let kernel = antumbra_truth::Kernel::new(taps)?;
+    let kernel = ideal_kernel(request.kernel)?;
     let light_space =
         tracer.light_space_ideal(&rays, light, &kernel, &map_plane(view), &|s| progress.share(s));
     let seconds_light_space = clock.lap();

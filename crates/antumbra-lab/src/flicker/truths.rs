@@ -1,8 +1,11 @@
 //! What is right in each frame, and at the points of the frame before.
 
 use super::{Promise, Request};
-use crate::{compare::map_plane, motion::Frame};
-use antumbra::{Kernel, View, Weights};
+use crate::{
+    compare::{ideal_kernel, map_plane},
+    motion::Frame,
+};
+use antumbra::View;
 use antumbra_truth::{CameraRays, Hit, Tracer};
 use anyhow::{Result, bail};
 use glam::Vec3;
@@ -53,11 +56,10 @@ impl<'a> Truths<'a> {
         let first = request.stride / 2;
         let rows = (first..height).step_by(step);
         let chosen = rows.flat_map(|y| (first..width).step_by(step).map(move |x| (y * width + x) as usize));
-        let taps = Kernel::new(Weights::Gaussian, request.kernel, 0.0).taps;
         Ok(Self {
             tracer,
             resolution: request.resolution,
-            kernel: antumbra_truth::Kernel::new(taps.into_iter().map(f64::from).collect())?,
+            kernel: ideal_kernel(request.kernel)?,
             grid: request.grid,
             chosen: chosen.collect(),
         })
