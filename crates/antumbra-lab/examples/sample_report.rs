@@ -295,6 +295,7 @@ fn time(passes: &[(&str, f64)]) -> TimeResult {
     TimeResult {
         passes: passes.iter().map(pass).collect(),
         frame: Spread { median_ms: total, min_ms: total * 0.96, max_ms: total * 1.11 },
+        frame_method: TimeMethod::Wall,
         rounds: 64,
         lookup_ratio_to_hard: Some(lookup / 0.11),
         frame_ratio_to_hard: Some(total / 0.41),

@@ -1,7 +1,8 @@
 //! Times of passes and frames.
 //!
-//! Render passes are timed by the GPU's timestamps where it has them, which include neither
-//! recording nor submission; whole frames by the wall clock from submission to completion.
+//! Passes are timed by the GPU's timestamps where it has them, which include neither recording nor
+//! submission. Whole frames last from their first to their last timestamp; on software drivers, which
+//! may stamp before work is done, and without timestamps by the wall clock from submission to completion.
 //! Techniques take turns, round after round, so that a disturbance of the machine hits all of them.
 
 use crate::{
@@ -16,6 +17,9 @@ use std::time::Instant;
 
 /// Most passes of one frame that are timed.
 const MOST_PASSES: u32 = 1024;
+
+/// Milliseconds per label.
+type Passes = Vec<(&'static str, f64)>;
 
 /// Timestamps around each pass of a frame.
 #[derive(Debug)]
@@ -56,14 +60,20 @@ impl Stopwatch {
         }
     }
 
-    /// Milliseconds per label, in order of first appearance.
-    fn read(&self, gpu: &Gpu) -> Result<Vec<(&'static str, f64)>> {
-        let Some((_, _, staging)) = &self.queries else { return Ok(Vec::new()) };
+    /// Milliseconds from the first to the last timestamp, and per label in order of first appearance;
+    /// `None` without timestamps.
+    fn read(&self, gpu: &Gpu) -> Result<Option<(f64, Passes)>> {
+        let Some((_, _, staging)) = &self.queries else { return Ok(None) };
         let bytes = gpu.map(staging)?;
         let stamps: Vec<u64> =
             bytes.chunks_exact(8).filter_map(|b| b.try_into().ok()).map(u64::from_ne_bytes).collect();
         let period = f64::from(gpu.queue.get_timestamp_period()) * 1e-6;
-        let mut sums: Vec<(&'static str, f64)> = Vec::new();
+        let stamps = &stamps[..2 * self.labels.len()];
+        let span = match (stamps.iter().min(), stamps.iter().max()) {
+            (Some(first), Some(last)) => (last - first) as f64 * period,
+            _ => 0.0,
+        };
+        let mut sums = Passes::new();
         for (i, (label, pair)) in self.labels.iter().zip(stamps.chunks_exact(2)).enumerate() {
             // Some software drivers stamp the end of a compute pass before it has run: the next pass
             // begins when it is done.
@@ -77,7 +87,7 @@ impl Stopwatch {
                 None => sums.push((label, ms)),
             }
         }
-        Ok(sums)
+        Ok(Some((span, sums)))
     }
 }
 
@@ -143,17 +153,23 @@ pub fn race(
         }
         progress((round + 1) as f32 / (rounds + 1) as f32);
     }
-    Ok(samples.iter().map(|s| s.result(rounds)).collect())
+    Ok(samples.iter().map(|s| s.result(rounds, frame_method(gpu))).collect())
 }
 
-/// One frame: wall milliseconds, and milliseconds per pass.
+/// Whether the timestamps of a device say how long a frame takes.
+fn frame_method(gpu: &Gpu) -> TimeMethod {
+    let timed = gpu.device.features().contains(wgpu::Features::TIMESTAMP_QUERY);
+    if timed && gpu.info.device_type != wgpu::DeviceType::Cpu { TimeMethod::Timestamps } else { TimeMethod::Wall }
+}
+
+/// One frame: milliseconds of all of it, and per pass.
 fn frame(
     gpu: &Gpu,
     stage: &Stage,
     lighting: &Lighting,
     entrant: Entrant<'_>,
     stopwatch: &mut Stopwatch,
-) -> Result<(f64, Vec<(&'static str, f64)>)> {
+) -> Result<(f64, Passes)> {
     stopwatch.labels.clear();
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     if let Some((shadows, casters)) = entrant.shadows {
@@ -167,11 +183,15 @@ fn frame(
     let start = Instant::now();
     gpu.finish(encoder)?;
     let wall = start.elapsed().as_secs_f64() * 1e3;
-    Ok((wall, stopwatch.read(gpu)?))
+    Ok(match stopwatch.read(gpu)? {
+        Some((span, passes)) if frame_method(gpu) == TimeMethod::Timestamps => (span, passes),
+        Some((_, passes)) => (wall, passes),
+        None => (wall, Passes::new()),
+    })
 }
 
 impl Samples {
-    fn result(&self, rounds: u32) -> TimeResult {
+    fn result(&self, rounds: u32, frame_method: TimeMethod) -> TimeResult {
         let pass = |(name, ms): &(&'static str, Vec<f64>)| {
             let Spread { median_ms, min_ms, max_ms } = spread(ms);
             let method = TimeMethod::Timestamps;
@@ -180,6 +200,7 @@ impl Samples {
         TimeResult {
             passes: self.passes.iter().map(pass).collect(),
             frame: spread(&self.frame),
+            frame_method,
             rounds,
             lookup_ratio_to_hard: None,
             frame_ratio_to_hard: None,

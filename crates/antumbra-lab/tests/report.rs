@@ -63,6 +63,7 @@ fn technique(spec: &str, title: &str, family: Family, visibility: f32) -> Techni
                 method: TimeMethod::Wall,
             }],
             frame: Spread { median_ms: 1.0, min_ms: 0.9, max_ms: 1.4 },
+            frame_method: TimeMethod::Wall,
             rounds: 16,
             lookup_ratio_to_hard: None,
             frame_ratio_to_hard: Some(1.25),

@@ -59,22 +59,27 @@ pub(crate) fn run(arguments: &Bench) -> Result<()> {
     let rows: Vec<Vec<String>> = names
         .zip(&times)
         .map(|(name, time)| {
-            let passes = PASSES.map(|p| timing::pass_ms(time, p).map_or("-".into(), |ms| format!("{ms:.2}")));
+            let passes = PASSES.map(|p| timing::pass_ms(time, p).map_or("-".into(), milliseconds));
             let f = time.frame;
             std::iter::once(name)
                 .chain(passes)
-                .chain([f.median_ms, f.min_ms, f.max_ms].map(|ms| format!("{ms:.2}")))
+                .chain([f.median_ms, f.min_ms, f.max_ms].map(milliseconds))
                 .collect()
         })
         .collect();
     writeln!(
         out,
-        "median milliseconds over {} rounds; frame: wall clock with its extremes",
-        arguments.rounds
+        "median milliseconds over {} rounds; frame: {} with its extremes",
+        arguments.rounds, times[0].frame_method
     )?;
     let header: Vec<&str> =
         std::iter::once("technique").chain(PASSES).chain(["frame", "min", "max"]).collect();
     table::print(out, &header, &rows)?;
     writeln!(out, "ray-traced hard truth, acceleration structure included: {truth:.2} s")?;
     Ok(())
+}
+
+/// To microseconds where that is a thousandth or more.
+fn milliseconds(ms: f64) -> String {
+    if ms < 10.0 { format!("{ms:.3}") } else { format!("{ms:.1}") }
 }

@@ -2,7 +2,7 @@
 
 use super::table::row_head;
 use super::text::{bytes, count, escape, milliseconds, significant};
-use crate::results::{Lifetime, PassTime, Results, TechniqueResult, TimeMethod};
+use crate::results::{Lifetime, PassTime, Results, TechniqueResult};
 
 /// Colours of the style sheet for passes; a ninth pass is drawn like the first.
 const PASS_COLORS: usize = 8;
@@ -40,11 +40,12 @@ pub(super) fn time(results: &Results) -> String {
                 share(frame.median_ms, longest),
                 milliseconds(frame.median_ms),
                 tip = escape(&format!(
-                    "Frame: median {}, {} to {}, {} rounds",
+                    "Frame: median {}, {} to {}, {} rounds, {}",
                     milliseconds(frame.median_ms),
                     significant(frame.min_ms),
                     milliseconds(frame.max_ms),
-                    t.time.rounds
+                    t.time.rounds,
+                    t.time.frame_method
                 )),
             )
         })
@@ -60,13 +61,6 @@ fn share(part: f64, whole: f64) -> f64 {
     if whole > 0.0 { part / whole * 100.0 } else { 0.0 }
 }
 
-fn clock(method: TimeMethod) -> &'static str {
-    match method {
-        TimeMethod::Timestamps => "GPU timestamps",
-        TimeMethod::Wall => "wall clock",
-    }
-}
-
 fn segment(pass: &PassTime, longest: f64, color: usize) -> String {
     let tip = format!(
         "{}: {} ({} to {}), {}",
@@ -74,7 +68,7 @@ fn segment(pass: &PassTime, longest: f64, color: usize) -> String {
         milliseconds(pass.median_ms),
         significant(pass.min_ms),
         milliseconds(pass.max_ms),
-        clock(pass.method)
+        pass.method
     );
     let width = share(pass.median_ms, longest);
     format!("<span class=\"pass{color}\" style=\"width:{width:.3}%\" data-tip=\"{}\"></span>", escape(&tip))
@@ -89,7 +83,7 @@ fn pass_table(results: &Results) -> String {
             pass.min_ms,
             pass.max_ms,
             pass.cpu_ms.map_or("–".into(), |ms| format!("{ms:.4}")),
-            clock(pass.method)
+            pass.method
         )
     };
     let groups: String = results

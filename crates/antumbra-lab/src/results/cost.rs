@@ -9,6 +9,9 @@ pub struct TimeResult {
     pub passes: Vec<PassTime>,
     /// The whole frame, shadow passes and lighting.
     pub frame: Spread,
+    /// The clock of the frame.
+    #[serde(default)]
+    pub frame_method: TimeMethod,
     /// Frames that were measured.
     pub rounds: u32,
     /// Lookup time over that of the standard shadow map; `null` where it was not measured.
@@ -35,13 +38,23 @@ pub struct PassTime {
 }
 
 /// The clock of a measurement.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum TimeMethod {
     /// Timestamps that the GPU writes before and after.
     Timestamps,
     /// Wall clock from submission to completion.
+    #[default]
     Wall,
+}
+
+impl std::fmt::Display for TimeMethod {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Timestamps => "GPU timestamps",
+            Self::Wall => "wall clock",
+        })
+    }
 }
 
 /// Median and extremes, milliseconds.
