@@ -159,7 +159,11 @@ pub fn race(
 /// Whether the timestamps of a device say how long a frame takes.
 fn frame_method(gpu: &Gpu) -> TimeMethod {
     let timed = gpu.device.features().contains(wgpu::Features::TIMESTAMP_QUERY);
-    if timed && gpu.info.device_type != wgpu::DeviceType::Cpu { TimeMethod::Timestamps } else { TimeMethod::Wall }
+    if timed && gpu.info.device_type != wgpu::DeviceType::Cpu {
+        TimeMethod::Timestamps
+    } else {
+        TimeMethod::Wall
+    }
 }
 
 /// One frame: milliseconds of all of it, and per pass.
