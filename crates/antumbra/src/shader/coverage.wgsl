@@ -1,14 +1,15 @@
 /// The line through a and b as (n, o): n·x + o is the distance of x, negative where (b−a)×(x−a) is
-/// positive. Zero for two equal points.
+/// positive. Distances are those of squares: |n.x| + |n.y| is 1, so that a square touches the line if
+/// its centre is no farther than half its side. Zero for two equal points.
 fn coverage_line(a: vec2f, b: vec2f) -> vec3f {
     let along = b - a;
-    let length = length(along);
+    let length = abs(along.x) + abs(along.y);
     let n = select(vec2f(along.y, -along.x) / length, vec2f(0.0), length == 0.0);
     return vec3f(n, -dot(n, a));
 }
 
-/// The three edges of a triangle as lines whose distances are positive outside; `corners` hold x and
-/// y in columns, in the order that gives a positive area.
+/// The three edges of a triangle as such lines, with distances that are positive outside; `corners` hold x
+/// and y in columns, in the order that gives a positive area.
 fn coverage_lines(corners: mat3x3f) -> mat3x3f {
     return mat3x3f(
         coverage_line(corners[1].xy, corners[2].xy),
@@ -34,7 +35,7 @@ fn coverage_corner(corners: mat3x3f, lines: mat3x3f, k: u32, reach: f32) -> vec2
     let margin = reach + 0.01;
     let p = select(select(lines[0], lines[2], k == 1u), lines[1], k == 0u);
     let q = select(select(lines[1], lines[0], k == 1u), lines[2], k == 0u);
-    let o = vec2f(p.z, q.z) - margin * (abs(vec2f(p.x, q.x)) + abs(vec2f(p.y, q.y)));
+    let o = vec2f(p.z, q.z) - margin;
     let expanded = vec2f(o.y * p.y - o.x * q.y, o.x * q.x - o.y * p.x) / (p.x * q.y - p.y * q.x);
     // Rectangle along the longest edge.
     var along = select(b, c - b, dot(c - b, c - b) > dot(b, b));
@@ -60,12 +61,7 @@ fn coverage_corner(corners: mat3x3f, lines: mat3x3f, k: u32, reach: f32) -> vec2
 /// and y). These are all separating axes of a square and a triangle. The slack, half a thousandth of
 /// a texel, is more than rounding moves a corner, on maps of up to 4096 texels.
 fn coverage_touches(lines: mat3x3f, distances: vec3f, bounds: vec4f, centre: vec2f, reach: f32) -> bool {
-    let sides = reach * vec3f(
-        abs(lines[0].x) + abs(lines[0].y),
-        abs(lines[1].x) + abs(lines[1].y),
-        abs(lines[2].x) + abs(lines[2].y),
-    );
-    return all(distances <= sides + 5e-4)
+    return all(distances <= vec3f(reach + 5e-4))
         && all(centre >= bounds.xy - reach - 5e-4)
         && all(centre <= bounds.zw + reach + 5e-4);
 }
@@ -83,7 +79,7 @@ fn coverage_nearest(lines: mat3x3f, distances: vec3f, bounds: vec4f, centre: vec
         line = lines[2].xy;
         beyond = distances.z;
     }
-    return clamp(centre - max(beyond, 0.0) * line, bounds.xy, bounds.zw);
+    return clamp(centre - max(beyond, 0.0) / max(dot(line, line), 1e-30) * line, bounds.xy, bounds.zw);
 }
 
 /// Depth that a triangle's plane gains per texel along x and y; depths are the third coordinates of

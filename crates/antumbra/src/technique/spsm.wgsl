@@ -97,36 +97,30 @@ fn spsm_least(lines: mat3x3f, gain: vec3f) -> f32 {
     if spsm_covers(lines, corner) {
         return dot(gain, vec3f(corner, 1.0));
     }
-    var least = 1e30;
-    for (var k = 0u; k < 3u; k += 1u) {
-        // The edge's line is foot + s·along; the texel and the other edges cut it.
-        let line = lines[k];
-        let foot = -line.z * line.xy;
-        let along = vec2f(-line.y, line.x);
-        let safe = select(along, vec2f(1e-9), abs(along) < vec2f(1e-9));
-        let left = (vec2f(-0.5) - foot) / safe;
-        let right = (vec2f(0.5) - foot) / safe;
-        let enter = min(left, right);
-        let leave = max(left, right);
-        var first = max(enter.x, enter.y);
-        var last = min(leave.x, leave.y);
-        for (var other = 1u; other < 3u; other += 1u) {
-            let cut = lines[(k + other) % 3u];
-            let rise = dot(cut.xy, along);
-            let at = -(dot(cut.xy, foot) + cut.z) / select(rise, 1e-9, abs(rise) < 1e-9);
-            if rise < 0.0 {
-                first = max(first, at);
-            } else {
-                last = min(last, at);
-            }
-        }
-        if first <= last + 1e-3 {
-            let start = dot(gain, vec3f(foot, 1.0));
-            let slope = dot(gain.xy, along);
-            least = min(least, min(start + slope * first, start + slope * last));
-        }
-    }
-    return least;
+    return min(
+        spsm_least_on(lines[0], lines[1], lines[2], gain),
+        min(spsm_least_on(lines[1], lines[2], lines[0], gain), spsm_least_on(lines[2], lines[0], lines[1], gain)),
+    );
+}
+
+/// The least along the part of an edge that is in the texel and that two other edges leave, 1e30 if there
+/// is none.
+fn spsm_least_on(line: vec3f, before: vec3f, behind: vec3f, gain: vec3f) -> f32 {
+    // The edge's line is foot + s·along; the texel and the other edges cut it.
+    let foot = -line.z / dot(line.xy, line.xy) * line.xy;
+    let along = vec2f(-line.y, line.x);
+    let safe = select(along, vec2f(1e-9), abs(along) < vec2f(1e-9));
+    let left = (vec2f(-0.5) - foot) / safe;
+    let right = (vec2f(0.5) - foot) / safe;
+    let enter = min(left, right);
+    let leave = max(left, right);
+    let rise = vec2f(dot(before.xy, along), dot(behind.xy, along));
+    let at = -(vec2f(dot(before.xy, foot), dot(behind.xy, foot)) + vec2f(before.z, behind.z)) / select(rise, vec2f(1e-9), abs(rise) < vec2f(1e-9));
+    let first = max(max(enter.x, enter.y), max(select(-1e30, at.x, rise.x < 0.0), select(-1e30, at.y, rise.y < 0.0)));
+    let last = min(min(leave.x, leave.y), min(select(1e30, at.x, rise.x >= 0.0), select(1e30, at.y, rise.y >= 0.0)));
+    let start = dot(gain, vec3f(foot, 1.0));
+    let slope = dot(gain.xy, along);
+    return select(1e30, min(start + slope * first, start + slope * last), first <= last + 1e-3);
 }
 
 /// Whether a texel holds a triangle, with these edges, that somewhere in it is nearer to the light than
@@ -135,19 +129,25 @@ fn spsm_occludes(words: vec4u, lines: mat3x3f, receiver: vec3f, size: vec2f) -> 
     let slack = packing_slack(words);
     let sure = vec3f(0.0, 0.0, slack.z + dot(slack.xy, 0.5 / size));
     let gain = vec3f(packing_slope(words) / size, packing_depth(words)) + sure - receiver;
-    return packing_holds(words) && spsm_least(lines, gain) < 0.0;
+    // Mostly the whole texel lies on one side, and which part the triangle covers does not matter.
+    let rise = 0.5 * (abs(gain.x) + abs(gain.y));
+    if !packing_holds(words) || gain.z - rise >= 0.0 {
+        return false;
+    }
+    return gain.z + rise < 0.0 || spsm_least(lines, gain) < 0.0;
 }
 
 /// Whether a texel holds no triangle, or one that is less than half a texel across there: two of its
 /// edges face away from each other so closely.
 fn spsm_sliver(words: vec4u, lines: mat3x3f) -> bool {
-    var sliver = !packing_holds(words);
-    for (var k = 0u; k < 3u; k += 1u) {
-        let a = lines[k];
-        let b = lines[(k + 1u) % 3u];
-        sliver = sliver || (dot(a.xy, b.xy) < -0.7 && -a.z - b.z < 0.5);
-    }
-    return sliver;
+    return !packing_holds(words) || spsm_thin(lines[0], lines[1]) || spsm_thin(lines[1], lines[2]) || spsm_thin(lines[2], lines[0]);
+}
+
+/// Whether two edges face away from each other, less than half a texel apart.
+fn spsm_thin(a: vec3f, b: vec3f) -> bool {
+    let s = inverseSqrt(dot(a.xy, a.xy));
+    let t = inverseSqrt(dot(b.xy, b.xy));
+    return dot(a.xy, b.xy) * s * t < -0.7 && -a.z * s - b.z * t < 0.5;
 }
 
 /// Where the e-th of nine texels in each layer is: the eight around a texel, then it itself.
@@ -252,7 +252,7 @@ fn spsm_silhouette(map: texture_2d_array<u32>, point: vec2f, view: u32, entries:
         let alone = packing_alone(words, there, size);
         for (var c = 0u; c < 3u; c += 1u) {
             let corner = packing_corner(words, lines, c, there, size);
-            let outward = lines[(c + 1u) % 3u].xy + lines[(c + 2u) % 3u].xy;
+            let outward = normalize(lines[(c + 1u) % 3u].xy) + normalize(lines[(c + 2u) % 3u].xy);
             if alone || corner.z == 0.0 || dot(outward, normal) <= 0.0 {
                 continue;
             }

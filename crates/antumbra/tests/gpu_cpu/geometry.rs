@@ -58,7 +58,9 @@ const PACK: &str = "
     let at_centre = corners[0].z + dot(slope, centre - corners[0].xy);
     let half_words = packing_triangle(corners, slope * size);
     let decoded = packing_slope(half_words) / size;
-    let words = packing_texel(half_words, corners, distances, centre, size, vec3f(0.0, 0.0, at_centre), decoded, false);
+    let texel_words = packing_texel(half_words, corners, distances, centre, size, vec3f(0.0, 0.0, at_centre), decoded, false);
+    // Some drivers leave out packing that is undone at once: zero that they do not know.
+    let words = texel_words ^ vec4u(u32(take(15u)));
     let point = take2(9u);
     let found = packing_lines(words, centre, size);
 ";
@@ -67,13 +69,15 @@ fn corners(r: &[f64; INPUTS]) -> [[f64; 3]; 3] {
     [0, 1, 2].map(|k| [r[3 * k], r[3 * k + 1], r[3 * k + 2]])
 }
 
-/// Distances of a point from the edges opposite each corner, positive outside.
+/// Distances of a point from the edges opposite each corner, positive outside, in which a texel's edge is
+/// half a texel from its centre.
 fn distances(r: &[f64; INPUTS]) -> [f64; 3] {
     let c = corners(r).map(|c| DVec2::new(c[0], c[1]));
     let p = DVec2::new(512.5 + r[9], 512.5 + r[10]);
     [0, 1, 2].map(|k| {
         let (a, b) = (c[(k + 1) % 3], c[(k + 2) % 3]);
-        -(b - a).normalize().perp_dot(p - a)
+        let along = b - a;
+        -along.perp_dot(p - a) / along.abs().element_sum()
     })
 }
 
@@ -90,11 +94,11 @@ pub(crate) fn triangles_survive_packing(gpu: &Gpu) {
     // Where an edge passes far from the texel its distance is not kept.
     let near = |r: &Row| {
         let here = distances(&std::array::from_fn(|i| if i == 9 || i == 10 { 0.0 } else { f64::from(r[i]) }));
-        here.iter().all(|d| *d > -2.1 && *d < 0.7)
+        here.iter().all(|d| *d > -1.95 && *d < 0.59)
     };
     let rows: Vec<Row> = rows(21, triangle).into_iter().filter(near).collect();
     assert!(rows.len() > 100, "{}", rows.len());
-    for (packing, tolerance) in [(Packing::Edges, 2e-3), (Packing::Texel, 6e-3), (Packing::Map, 0.1)] {
+    for (packing, tolerance) in [(Packing::Edges, 2e-3), (Packing::Texel, 6e-3), (Packing::Map, 0.15)] {
         let found = run::<4>(gpu, &functions(gpu, packing), &body, &rows);
         let expected = |tolerance: f64| move |r: &[f64; INPUTS]| (distances(r), tolerance);
         compare::<4, 3>(&rows, &found, expected(tolerance)).unwrap();

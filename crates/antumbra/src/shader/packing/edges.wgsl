@@ -1,5 +1,7 @@
 /// Edges farther than this inside a texel's centre, in texels, are out of reach of its neighbours.
-const packing_reach: f32 = 2.2;
+const packing_reach: f32 = 2.0;
+/// Edges of triangles that touch a texel are no farther outside its centre: half a texel, and rounding.
+const packing_beyond: f32 = 0.6;
 
 /// Nearest of 2^bits − 1 levels from low to high; the middle is one of them.
 fn packing_quantize(value: f32, low: f32, high: f32, bits: u32) -> u32 {
@@ -12,33 +14,40 @@ fn packing_value(level: u32, low: f32, high: f32, bits: u32) -> f32 {
     return low + (high - low) * f32(level) / f32((1u << bits) - 2u);
 }
 
-/// A direction as a place on the square around the origin whose corners are on the axes, 0 to 4. Spares
-/// sine and cosine.
+/// A direction as a place on the square around the origin whose corners are on the axes, 0 to 4, on which
+/// the normals of lines lie. Spares sine, cosine and roots.
 fn packing_turn(direction: vec2f) -> f32 {
     let x = direction.x / max(abs(direction.x) + abs(direction.y), 1e-30);
     return select(3.0 + x, 1.0 - x, direction.y >= 0.0);
 }
 
-/// Unit vector of a place on that square.
+/// The vector of a place on that square.
 fn packing_direction(turn: f32) -> vec2f {
     let x = select(turn - 3.0, 1.0 - turn, turn < 2.0);
     let y = 1.0 - abs(x);
-    return normalize(vec2f(x, select(-y, y, turn < 2.0)));
+    return vec2f(x, select(-y, y, turn < 2.0));
 }
 
 /// What all texels of a triangle share. Per edge, in x, y and z: the direction of its normal in the
 /// upper 13 bits. In the lower 6 bits of all four words: both depth slopes s as s / (1 + |s|), 12 bits
 /// each; `slope` is the depth gained over the width and over the height of the map.
 fn packing_triangle(corners: mat3x3f, slope: vec2f) -> vec4u {
-    var words = vec4u(0u);
-    for (var k = 0u; k < 3u; k += 1u) {
-        let along = corners[(k + 2u) % 3u].xy - corners[(k + 1u) % 3u].xy;
-        words[k] = (u32(packing_turn(vec2f(along.y, -along.x)) * 2048.0 + 0.5) & 8191u) << 19u;
-    }
+    let words = vec4u(
+        packing_edge(corners[1].xy, corners[2].xy),
+        packing_edge(corners[2].xy, corners[0].xy),
+        packing_edge(corners[0].xy, corners[1].xy),
+        0u,
+    );
     let bent = slope / (1.0 + abs(slope));
     let x = packing_quantize(bent.x, -1.0, 1.0, 12u);
     let y = packing_quantize(bent.y, -1.0, 1.0, 12u);
     return words | vec4u(x >> 6u, x & 63u, y >> 6u, y & 63u);
+}
+
+/// Direction of the normal of the edge from a to b, in the upper 13 bits.
+fn packing_edge(a: vec2f, b: vec2f) -> u32 {
+    let along = b - a;
+    return (u32(packing_turn(vec2f(along.y, -along.x)) * 2048.0 + 0.5) & 8191u) << 19u;
 }
 
 /// Slope, as decoded, of what `packing_triangle` or `packing_texel` made: depth over the width and over
@@ -62,9 +71,9 @@ fn packing_slack(words: vec4u) -> vec3f {
 /// that it is known in this texel alone.
 fn packing_texel(shared_words: vec4u, corners: mat3x3f, distances: vec3f, centre: vec2f, size: vec2f, anchor: vec3f, slope: vec2f, alone: bool) -> vec4u {
     var words = shared_words;
-    for (var k = 0u; k < 3u; k += 1u) {
-        words[k] |= packing_quantize(distances[k], -packing_reach, 0.8, 13u) << 6u;
-    }
+    words.x |= packing_quantize(distances.x, -packing_reach, packing_beyond, 13u) << 6u;
+    words.y |= packing_quantize(distances.y, -packing_reach, packing_beyond, 13u) << 6u;
+    words.z |= packing_quantize(distances.z, -packing_reach, packing_beyond, 13u) << 6u;
     // In front of the near plane depth only has to stay there, wherever the neighbours look.
     let depth = max(anchor.z, min(0.0, -2.5 * (abs(slope.x) + abs(slope.y)))) - dot(slope, anchor.xy);
     words.w |= packing_quantize(depth, -6.0, 3.0, 24u) << 8u | select(128u, 192u, alone);
@@ -84,12 +93,13 @@ fn packing_alone(words: vec4u, centre: vec2f, size: vec2f) -> bool {
 /// Edges of the stored triangle around the texel's centre, which lies at `centre` in the map: distances
 /// n·x + o are positive outside.
 fn packing_lines(words: vec4u, centre: vec2f, size: vec2f) -> mat3x3f {
-    var lines: mat3x3f;
-    for (var k = 0u; k < 3u; k += 1u) {
-        let distance = packing_value(words[k] >> 6u & 8191u, -packing_reach, 0.8, 13u);
-        lines[k] = vec3f(packing_direction(f32(words[k] >> 19u) / 2048.0), distance);
-    }
-    return lines;
+    return mat3x3f(packing_line(words.x), packing_line(words.y), packing_line(words.z));
+}
+
+/// The edge in one of the first three words.
+fn packing_line(word: u32) -> vec3f {
+    let distance = packing_value(word >> 6u & 8191u, -packing_reach, packing_beyond, 13u);
+    return vec3f(packing_direction(f32(word >> 19u) / 2048.0), distance);
 }
 
 /// Corner opposite edge k around the texel's centre in xy; z is 1 if it is known, which corners out of
