@@ -65,7 +65,9 @@ fn main() {
         let terms = "constant_texels=0.05,slope_texels=0.05,receiver_plane=1";
         let settings = [terms.to_string(), format!("{terms},depth_steps=0.5")];
         let rows = sharp_study(gpu, "spot", &["hard"], &settings.each_ref().map(String::as_str));
-        assert!(rows[0].acne > 10.0 * rows[1].acne && rows[0].acne > ACNE, "{rows:?}");
+        // Graphics cards round less.
+        let factor = if gpu.is_software() { 10.0 } else { 4.0 };
+        assert!(rows[0].acne > factor * rows[1].acne && rows[0].acne > ACNE, "{rows:?}");
     });
     trials.add("coarse depths are covered", |gpu| {
         let specs = ["hard.precision=16", "hard.precision=12", "pcf.precision=12"];

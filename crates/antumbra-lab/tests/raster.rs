@@ -189,11 +189,12 @@ fn derivatives(gpu: &antumbra_testing::Gpu) {
         assert!(count > 1000, "only {count} pixels see the plane");
         worst
     };
+    let rounding = if gpu.is_software() { 1e-3 } else { 2e-3 };
     for i in 0..4 {
         let error = worst(i, i);
-        assert!(error < 1e-3, "gradient {i} is off by {error} of the footprint");
+        assert!(error < rounding, "gradient {i} is off by {error} of the footprint");
         let mixed = worst(i, (i + 1) % 4);
-        assert!(mixed > 1e-3, "gradient {i} passes for its neighbour");
+        assert!(mixed > rounding, "gradient {i} passes for its neighbour");
     }
 }
 
@@ -245,6 +246,8 @@ fn spot(gpu: &antumbra_testing::Gpu) {
 /// The n² samples of each texel of a stratified map are the texels of a plain one n times as large.
 fn finer(gpu: &antumbra_testing::Gpu) {
     const SIDE: u32 = 96;
+    // Of graphics cards' corners, snapped to fractions of texels of two sizes.
+    let rounding = if gpu.is_software() { 1e-5 } else { 1e-3 };
     let mut shot = Shot::new(gpu, &procedural::by_name("spheres").unwrap().scene(1), [64, 48]);
     let floats = |bytes: &[u8]| -> Vec<f32> {
         bytes.chunks_exact(4).map(|b| f32::from_ne_bytes(b.try_into().unwrap())).collect()
@@ -267,7 +270,7 @@ fn finer(gpu: &antumbra_testing::Gpu) {
                 let row = if flipped { grid - 1 - y % grid } else { y % grid };
                 let (k, texel) = (row * grid + x % grid, y / grid * SIDE + x / grid);
                 let sample = layers[k as usize / 4][(4 * texel + k % 4) as usize];
-                (sample - fine[2 * (y * SIDE * grid + x) as usize]).abs() < 1e-5
+                (sample - fine[2 * (y * SIDE * grid + x) as usize]).abs() < rounding
             });
             same.count() as f64 / f64::from(SIDE * grid).powi(2)
         };

@@ -59,6 +59,13 @@ fn open(choose: impl FnOnce(&wgpu::Adapter) -> (wgpu::Features, wgpu::Limits)) -
 }
 
 impl Gpu {
+    /// Whether the device is a processor. Graphics cards weigh the texels of a sampler with 8 bits, and round
+    /// corners of triangles and small numbers in ways of their own.
+    #[must_use]
+    pub fn is_software(&self) -> bool {
+        self.info.device_type == wgpu::DeviceType::Cpu
+    }
+
     /// Runs `f` and panics with every validation or memory error that it causes.
     ///
     /// # Panics

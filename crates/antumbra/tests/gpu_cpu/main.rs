@@ -113,9 +113,10 @@ fn compare_from<const N: usize, const M: usize>(
     Ok(())
 }
 
-/// Weights of GPUs' samplers have 8 bits; software drivers' are floats.
+/// What an interpolated number may be off, as a share of what its texels differ by: weights of GPUs'
+/// samplers have 8 bits along each of two axes, rounded or cut off; software drivers' are floats.
 fn sampler_error(gpu: &Gpu) -> f64 {
-    if gpu.info.device_type == wgpu::DeviceType::Cpu { 1e-5 } else { 4e-3 }
+    if gpu.is_software() { 1e-5 } else { 2.0 / 256.0 }
 }
 
 /// Texel (x, y) of an image, edges repeated.
