@@ -100,6 +100,7 @@ impl ShaderText {
         for constant in technique.constants() {
             shader.replace(&constant);
         }
+        shader.unroll();
         shader
     }
 
@@ -129,6 +130,18 @@ impl ShaderText {
         debug_assert!(!text.is_empty(), "no WGSL file fills '{stem}' with the parts {parts:?}");
         self.need_all(text, parts);
         self.push(stem, text);
+    }
+
+    /// Writes the loops out that say so.
+    fn unroll(&mut self) {
+        let all = self.text();
+        let count = |name: &str| {
+            let value = all.lines().find_map(|l| l.strip_prefix(&format!("const {name}: u32 = ")))?;
+            value.trim_end_matches([';', 'u']).parse().ok()
+        };
+        for (_, text) in &mut self.pieces {
+            *text = unroll::unroll(text, count);
+        }
     }
 
     /// Replaces the one-line declaration of a constant.
@@ -293,6 +306,8 @@ pub(crate) fn triangles(
 
 /// The pass between counting and filling lists.
 pub(crate) const SCAN: &str = include_str!("shader/scan.wgsl");
+
+mod unroll;
 
 #[cfg(test)]
 mod tests;

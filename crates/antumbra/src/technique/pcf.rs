@@ -70,6 +70,11 @@ impl Default for Pcf {
 }
 
 impl Pcf {
+    /// Pairs of texels along one side that bilinear taps cover.
+    fn pairs(&self) -> u32 {
+        (self.kernel + 1).div_ceil(2)
+    }
+
     /// Peak and fall-off of the weights 2^−(fall-off · x²) at x texels from the middle, which sum to one
     /// as those of [`Kernel::new`] do.
     fn bell(&self) -> [f32; 2] {
@@ -132,8 +137,11 @@ impl Technique for Pcf {
     }
     fn constants(&self) -> Vec<Constant> {
         let bell = self.bell().to_vec();
-        let mut constants =
-            vec![Constant::Array("taps_bell", bell), Constant::Count("taps_width", self.kernel)];
+        let mut constants = vec![
+            Constant::Array("taps_bell", bell),
+            Constant::Count("taps_width", self.kernel),
+            Constant::Count("taps_pairs", self.pairs()),
+        ];
         constants.extend(self.precision.constants());
         constants
     }
@@ -167,7 +175,7 @@ impl Technique for Pcf {
     fn lookups(&self) -> u32 {
         match self.taps {
             Taps::Nearest | Taps::Bilinear => self.kernel.pow(2),
-            Taps::Merged | Taps::Gather => (self.kernel + 1).div_ceil(2).pow(2),
+            Taps::Merged | Taps::Gather => self.pairs().pow(2),
         }
     }
     fn boxed(&self) -> Box<dyn Technique> {

@@ -10,7 +10,7 @@ fn taps_lit(casters: texture_depth_2d_array, compare: sampler_comparison, uv: ve
     let gain = dot(plane, corner - uv) - 0.5 * dot(abs(plane), texel);
     var lit = 0.0;
     for (var row = 0u; row < taps_width; row += 1u) {
-        for (var column = 0u; column < taps_width; column += 1u) {
+        for (var column = 0u; column < taps_width; column += 1u) { // unrolled
             let step = vec2f(f32(column), f32(row)) * texel;
             let reference = reference_depth(depth, gain + dot(plane, step));
             let tap = textureSampleCompareLevel(casters, compare, first * texel + step, view, reference);

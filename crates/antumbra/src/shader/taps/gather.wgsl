@@ -11,11 +11,11 @@ fn taps_lit(casters: texture_depth_2d_array, compare: sampler_comparison, uv: ve
     let corner = (low + 1.0) * texel;
     let gain = dot(plane, corner - uv) - 0.5 * dot(abs(plane), texel);
     var lit = 0.0;
-    for (var j = 0.0; j <= f32(taps_width); j += 2.0) {
-        let y = taps_pair(j, fraction.y);
-        for (var i = 0.0; i <= f32(taps_width); i += 2.0) {
-            let x = taps_pair(i, fraction.x);
-            let step = vec2f(i, j) * texel;
+    for (var j = 0u; j < taps_pairs; j += 1u) {
+        let y = taps_pair(2.0 * f32(j), fraction.y);
+        for (var i = 0u; i < taps_pairs; i += 1u) { // unrolled
+            let x = taps_pair(2.0 * f32(i), fraction.x);
+            let step = 2.0 * vec2f(f32(i), f32(j)) * texel;
             let reference = reference_depth(depth, gain + dot(plane, step));
             let four = textureGatherCompare(casters, compare, corner + step, view, reference);
             lit += y.y * dot(x, four.xy) + y.x * dot(x, four.wz);

@@ -11,15 +11,15 @@ fn taps_lit(casters: texture_depth_2d_array, compare: sampler_comparison, uv: ve
     // From the receiver to where the first four texels meet, and the gain to the highest of them.
     let gain = dot(plane, (low + 1.0) * texel - uv) - 0.5 * dot(abs(plane), texel);
     var lit = 0.0;
-    for (var j = 0.0; j <= f32(taps_width); j += 2.0) {
-        let y = taps_pair(j, fraction.y);
+    for (var j = 0u; j < taps_pairs; j += 1u) {
+        let y = taps_pair(2.0 * f32(j), fraction.y);
         let down = y.x + y.y;
-        let place_y = (low.y + 0.5 + j + y.y / max(down, 1e-30)) * texel.y;
-        for (var i = 0.0; i <= f32(taps_width); i += 2.0) {
-            let x = taps_pair(i, fraction.x);
+        let place_y = (low.y + 0.5 + 2.0 * f32(j) + y.y / max(down, 1e-30)) * texel.y;
+        for (var i = 0u; i < taps_pairs; i += 1u) { // unrolled
+            let x = taps_pair(2.0 * f32(i), fraction.x);
             let across = x.x + x.y;
-            let place_x = (low.x + 0.5 + i + x.y / max(across, 1e-30)) * texel.x;
-            let reference = reference_depth(depth, gain + dot(plane, vec2f(i, j) * texel));
+            let place_x = (low.x + 0.5 + 2.0 * f32(i) + x.y / max(across, 1e-30)) * texel.x;
+            let reference = reference_depth(depth, gain + dot(plane, 2.0 * vec2f(f32(i), f32(j)) * texel));
             lit += across * down * textureSampleCompareLevel(casters, compare, vec2f(place_x, place_y), view, reference);
         }
     }

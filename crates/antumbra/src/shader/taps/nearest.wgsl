@@ -7,7 +7,7 @@ fn taps_lit(casters: texture_depth_2d_array, compare: sampler_comparison, uv: ve
     let first = (floor(uv / texel - 0.5 * f32(taps_width - 1u)) + 0.5) * texel;
     var lit = 0.0;
     for (var row = 0u; row < taps_width; row += 1u) {
-        for (var column = 0u; column < taps_width; column += 1u) {
+        for (var column = 0u; column < taps_width; column += 1u) { // unrolled
             let centre = first + vec2f(f32(column), f32(row)) * texel;
             let reference = reference_depth(depth, dot(plane, centre - uv));
             let tap = textureSampleCompareLevel(casters, compare, centre, view, reference);
