@@ -90,7 +90,8 @@ fn view() -> View {
 /// The same caster as a mesh: one triangle, whose edges are outside.
 fn triangle(gpu: &Gpu, depth: f32) -> Result<CasterMesh> {
     let positions = [-1.5, -1.5, depth, 4.5, -1.5, depth, -1.5, 4.5, depth];
-    let buffer = |label, bytes| gpu.buffer(label, bytes, wgpu::BufferUsages::STORAGE);
+    let buffer =
+        |label, bytes| gpu.buffer(label, bytes, wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::INDEX);
     let positions = buffer("flat caster", bytemuck::cast_slice(&positions));
     let indices = buffer("flat caster", bytemuck::cast_slice(&[0u32, 1, 2]));
     Ok(CasterMesh::new(&gpu.device, &positions, &indices, 0..1, Mat4::IDENTITY)?)

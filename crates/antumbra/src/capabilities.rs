@@ -17,6 +17,8 @@ impl Capabilities {
     /// what each is good for stands in the [table of the crate](crate#devices).
     pub const OPTIONAL_FEATURES: Features = Features::FLOAT32_FILTERABLE
         .union(Features::DEPTH_CLIP_CONTROL)
+        .union(Features::PRIMITIVE_INDEX)
+        .union(Features::CONSERVATIVE_RASTERIZATION)
         .union(Features::TEXTURE_FORMAT_16BIT_NORM)
         .union(Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES);
 
@@ -52,6 +54,18 @@ impl Capabilities {
         let bytes = format.target_pixel_byte_cost().unwrap_or(16).max(1);
         (self.limits.max_color_attachment_bytes_per_sample / bytes)
             .clamp(1, self.limits.max_color_attachments.min(8))
+    }
+
+    /// Whether fragments know the number of their triangle, so that triangles may share vertices.
+    #[must_use]
+    pub fn numbers_triangles(&self) -> bool {
+        self.features.contains(Features::PRIMITIVE_INDEX)
+    }
+
+    /// Whether the rasteriser finds every texel that a triangle touches.
+    #[must_use]
+    pub fn rasterises_conservatively(&self) -> bool {
+        self.numbers_triangles() && self.features.contains(Features::CONSERVATIVE_RASTERIZATION)
     }
 
     /// Whether casters in front of the near plane can be kept by depth clamping.

@@ -120,13 +120,15 @@ pub enum Unsupported {
 /// Why buffers are no [`CasterMesh`](crate::CasterMesh).
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum MeshError {
-    /// The vertex shader reads storage buffers.
-    #[error("the buffer of {what} has usage {found}; needed: STORAGE")]
+    /// Shaders read storage buffers, and graphics cards indices.
+    #[error("the buffer of {what} has usage {found}; needed: {needed}")]
     Usage {
         /// positions or indices.
         what: &'static str,
         /// Its usage.
         found: String,
+        /// What it must have at least.
+        needed: String,
     },
     /// Not a triangle, or more than one binding may hold.
     #[error("the buffer of {what} has {bytes} bytes; allowed on this device: 12 to {max}")]

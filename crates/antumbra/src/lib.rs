@@ -97,6 +97,8 @@
 //! | `FLOAT32_FILTERABLE` | 32-bit maps are interpolated in the shader, with the same result |
 //! | `DEPTH_CLIP_CONTROL` | casters in front of a view are moved onto its near plane by [`CASTER_WGSL`] in your vertex shader, instead of `unclipped_depth` in your pipeline |
 //! | `TEXTURE_FORMAT_16BIT_NORM` and `TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES` | moments of `msm` take 32 bits instead of 16 |
+//! | `PRIMITIVE_INDEX` | triangles that casters are drawn as do not share vertices (`rgsm`, `spsm`; software drivers never share) |
+//! | `CONSERVATIVE_RASTERIZATION` | vertex shaders enlarge the triangles of `spsm`, and fragments leave out what they do not touch |
 //! | eight colour attachments of the format | layers are converted in several passes |
 //!
 //! # Features

@@ -359,7 +359,7 @@ impl ShadowMap {
     #[must_use]
     pub fn triangle_caster(&self, view: &View) -> Option<&wgpu::RenderPipeline> {
         let lists = self.lists.as_ref().map(|l| l.pipeline(view));
-        self.triangles.as_ref().map(|t| &t.general).or(lists)
+        self.triangles.as_ref().map(TriangleCaster::general).or(lists)
     }
 
     /// Four `u32` per view, usage `COPY_SRC`, for techniques whose caster is [`Caster::Lists`]: entries

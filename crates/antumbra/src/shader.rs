@@ -268,39 +268,57 @@ pub(crate) fn file(stem: &str) -> &'static str {
 /// Places the triangles of a [`CasterMesh`](crate::CasterMesh) on the map.
 const MESH: &str = include_str!("shader/mesh.wgsl.in");
 
+/// What texels store of triangles.
+const TRIANGLES: &str = include_str!("shader/triangles.wgsl.in");
+
+/// What is known beforehand of a pass that draws triangles. It leaves out code that software drivers would
+/// run for nothing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum TrianglePass {
+    /// Nothing: any texels, any view.
+    Any,
+    /// Its texels, and whether the view is a spot's.
+    Pulled(Coverage, bool),
+    /// Its texels, which the device's rasteriser finds; vertices are shared, the view is the sun's.
+    Indexed(Coverage),
+}
+
 /// The pass that draws triangles for [`Caster::Triangles`] or [`Caster::Lists`]. `cutout` is the
-/// caller's WGSL that leaves parts of them out; `kind` the texels that it draws to and whether the view is
-/// a spot's, `None` if it may be any.
+/// caller's WGSL that leaves parts of them out.
 pub(crate) fn triangles(
     technique: &dyn Technique,
     device: &Capabilities,
     cutout: Option<&str>,
-    kind: Option<(Coverage, bool)>,
+    pass: TrianglePass,
 ) -> String {
     let mut shader = ShaderText::library(technique, device);
     shader.need("coverage", &[]);
     let text = shader.text();
-    let pass = match technique.caster() {
-        Caster::Lists { .. } => include_str!("shader/lists.wgsl.in"),
-        Caster::Depth | Caster::Triangles(_) => include_str!("shader/triangles.wgsl.in"),
+    let indexed = matches!(pass, TrianglePass::Indexed(_));
+    let entry = match technique.caster() {
+        Caster::Lists { .. } => [include_str!("shader/lists.wgsl.in"), ""],
+        _ if indexed => [TRIANGLES, include_str!("shader/triangles/indexed.wgsl.in")],
+        Caster::Depth | Caster::Triangles(_) => [TRIANGLES, include_str!("shader/triangles/pulled.wgsl.in")],
     };
+    // Least depths are planes, which corners tell unless vertices are shared or depth may not be unclamped.
+    let own_depth = !device.clamps_depth() || pass == TrianglePass::Indexed(Coverage::Touched);
     let alone = if cutout.is_some() { "true" } else { "false" };
     let left_out = |line: &&str| {
-        cutout.is_none() && line.contains("// cut-outs")
-            || device.clamps_depth() && line.contains("// unclamped")
+        cutout.is_none() && line.contains("// cut-outs") || !own_depth && line.contains("// own depth")
     };
-    let glue = MESH.lines().chain(pass.lines()).filter(|line| !left_out(line));
-    // What is known beforehand leaves out code that software drivers would run for nothing.
-    let (reach, spot) = match kind {
-        Some((Coverage::Touched, spot)) => ("0.5", spot.to_string()),
-        Some((Coverage::Centre, spot)) => ("0.0", spot.to_string()),
-        None => ("caster_view.reach", "(caster_view.perspective == 1u)".into()),
+    let glue = MESH.lines().chain(entry.into_iter().flat_map(str::lines)).filter(|line| !left_out(line));
+    let reach = |coverage| if coverage == Coverage::Touched { "0.5" } else { "0.0" };
+    let (reach, spot) = match pass {
+        TrianglePass::Any => ("caster_view.reach", "(caster_view.perspective == 1u)"),
+        TrianglePass::Pulled(coverage, true) => (reach(coverage), "true"),
+        TrianglePass::Pulled(coverage, false) | TrianglePass::Indexed(coverage) => (reach(coverage), "false"),
     };
     let glue: String = glue.flat_map(|line| [line, "\n"]).collect();
     format!(
-        "{}\n{text}{}",
+        "{}{}\n{text}{}",
+        if indexed { "enable primitive_index;\n" } else { "" },
         cutout.unwrap_or_default(),
-        glue.replace("{alone}", alone).replace("{spot}", &spot).replace("{reach}", reach)
+        glue.replace("{alone}", alone).replace("{spot}", spot).replace("{reach}", reach)
     )
 }
 

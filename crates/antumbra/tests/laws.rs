@@ -299,33 +299,14 @@ fn fallbacks_agree(gpu: &Gpu, technique: &dyn Technique) -> Result<(), String> {
     let lesser =
         antumbra_testing::gpu_without(wgpu::Features::FLOAT32_FILTERABLE).ok_or("no second device")?;
     let receivers = receivers(10, 4096);
-    let ask = |gpu: &Gpu, receivers: &[Receiver]| {
+    let ask = |gpu: &Gpu| {
         let shadows = shadow_map(gpu, technique, &depth_texture(gpu, SIZE, blocks(11, 3)), SIZE.into());
-        (visibility(gpu, &shadows, receivers), shadows.explain().join("; "))
+        (visibility(gpu, &shadows, &receivers), shadows.explain().join("; "))
     };
-    let (expected, _) = ask(gpu, &receivers);
-    let (found, explained) = lesser.checked(|gpu| ask(gpu, &receivers));
-    // Graphics cards weigh texels with 8 bits, as if the receiver stood a 256th of a texel aside, of the
-    // finer or the coarser level. Steep functions make much of that.
-    let aside = |step: Vec2| -> Vec<f32> {
-        let moved: Vec<Receiver> =
-            receivers.iter().map(|r| Receiver { uv: r.uv + step / SIZE.width as f32, ..*r }).collect();
-        lesser.checked(|gpu| ask(gpu, &moved).0)
-    };
-    let mut range: Vec<[f32; 2]> = found.iter().map(|f| [*f; 2]).collect();
-    if !gpu.is_software() {
-        let steps = [1, 2, 4].map(|n| n as f32 / 256.0);
-        for (reach, turn) in steps.into_iter().flat_map(|s| (0..8).map(move |k| (s, k))) {
-            let step = Vec2::from_angle(turn as f32 * std::f32::consts::FRAC_PI_4)
-                * std::f32::consts::SQRT_2
-                * reach;
-            for (range, v) in range.iter_mut().zip(aside(step)) {
-                *range = [range[0].min(v), range[1].max(v)];
-            }
-        }
-    }
+    let (expected, _) = ask(gpu);
+    let (found, explained) = lesser.checked(ask);
     // Moments are rounded by 6e-8, which a variance near its floor of 1e-6 magnifies, and a moment
-    // bias of 3e-6 too; the levels of a mip map are weighed with 8 bits on graphics cards besides.
+    // bias of 3e-6 too; GPUs interpolate with 8-bit weights besides.
     let has = |uniform| technique.uniforms().iter().any(|(name, _)| *name == uniform);
     let tolerance = match gpu.info.device_type {
         wgpu::DeviceType::Cpu if has("moment_bias") => 5e-3,
@@ -333,8 +314,13 @@ fn fallbacks_agree(gpu: &Gpu, technique: &dyn Technique) -> Result<(), String> {
         wgpu::DeviceType::Cpu => 1e-4,
         _ => 2e-2,
     };
-    let off = expected.iter().zip(range).map(|(e, [low, high])| e - e.clamp(low, high));
-    all_of(receivers.iter().zip(off), |_, difference| difference.abs() <= tolerance)?;
+    let differ = expected.iter().zip(&found).filter(|(e, f)| (**e - **f).abs() > tolerance).count();
+    // A texel or a level that weighs less than half a 256th weighs nothing, though it may hold a power of e
+    // that outweighs all others.
+    let allowed = if gpu.is_software() { 0 } else { receivers.len() / 50 };
+    if differ > allowed {
+        return Err(format!("{differ} of {} receivers differ by more than {tolerance}", receivers.len()));
+    }
     let capabilities = Capabilities::of(&lesser.device);
     let interpolates = technique.parts(&capabilities).contains(&"level_manual");
     if let Some(map) = technique.maps(&capabilities).unwrap().first() {

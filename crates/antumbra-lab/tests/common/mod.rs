@@ -49,12 +49,7 @@ impl Shot {
         let (tracer, rays) = (Tracer::new(&self.geometry).unwrap(), self.rays());
         let numbers = self.stage.triangle_numbers(&self.gpu, &self.geometry).unwrap();
         assert_eq!(numbers.len(), rays.pixel_count());
-        let mut tolerance = CoverageTolerance::default();
-        if self.gpu.info.device_type != wgpu::DeviceType::Cpu {
-            // Projected corners are rounded differently, before they are snapped.
-            tolerance.edge_pixels *= 2.0;
-        }
-        tracer.coverage(&rays, &tracer.primary(&rays), &numbers, tolerance)
+        tracer.coverage(&rays, &tracer.primary(&rays), &numbers, CoverageTolerance::default())
     }
 
     /// Shadow maps that share one view.

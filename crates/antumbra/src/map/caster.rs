@@ -5,11 +5,16 @@ use crate::{
     capabilities::Capabilities,
     error::MeshError,
     light::{Size, View},
-    shader,
+    shader::{self, TrianglePass},
     technique::{Coverage, Technique},
 };
 use glam::Mat4;
-use std::{cell::Cell, num::NonZeroU64, ops::Range};
+use std::{
+    cell::Cell,
+    num::NonZeroU64,
+    ops::Range,
+    sync::atomic::{AtomicBool, Ordering},
+};
 use wgpu::{BindGroup, BindGroupLayout, BufferBindingType, RenderPipeline, TextureFormat};
 
 /// Share of a spot's near distance in front of which casters are cut off.
@@ -61,13 +66,15 @@ impl CasterView {
 pub struct CasterMesh {
     place: wgpu::Buffer,
     group: BindGroup,
+    indices: wgpu::Buffer,
     triangles: Range<u32>,
 }
 
 impl CasterMesh {
     /// Of two buffers with usage `STORAGE`: `positions`, three `f32` each, tightly packed (a vertex
-    /// buffer of stride 12); `indices`, `u32`, three per triangle, of which the triangles of the range
-    /// are drawn. Either winding. Indices must be in range: what lies beyond a buffer is unspecified.
+    /// buffer of stride 12); `indices`, with usage `INDEX` too, `u32`, three per triangle, of which the
+    /// triangles of the range are drawn. Either winding. Indices must be in range: what lies beyond a buffer
+    /// is unspecified.
     ///
     /// # Errors
     /// [`MeshError`]: usage, size against the device's limits, a range beyond the indices.
@@ -79,9 +86,13 @@ impl CasterMesh {
         world_from_object: Mat4,
     ) -> Result<Self, MeshError> {
         let most = device.limits().max_storage_buffer_binding_size;
-        for (what, buffer) in [("positions", positions), ("indices", indices)] {
-            if !buffer.usage().contains(wgpu::BufferUsages::STORAGE) {
-                return Err(MeshError::Usage { what, found: format!("{:?}", buffer.usage()) });
+        use wgpu::BufferUsages as Usage;
+        let needed =
+            [("positions", positions, Usage::STORAGE), ("indices", indices, Usage::STORAGE | Usage::INDEX)];
+        for (what, buffer, needed) in needed {
+            if !buffer.usage().contains(needed) {
+                let [found, needed] = [buffer.usage(), needed].map(|usage| format!("{usage:?}"));
+                return Err(MeshError::Usage { what, found, needed });
             }
             if !(12..=most).contains(&buffer.size()) {
                 return Err(MeshError::Bytes { what, bytes: buffer.size(), max: most });
@@ -107,7 +118,7 @@ impl CasterMesh {
             layout: &mesh_layout(device),
             entries: &[bound(0, &place), bound(1, positions), bound(2, indices)],
         });
-        Ok(Self { place, group, triangles })
+        Ok(Self { place, group, indices: indices.clone(), triangles })
     }
 
     /// Moves it.
@@ -130,6 +141,11 @@ impl CasterMesh {
             return;
         }
         pass.set_bind_group(1, &self.group, &[]);
+        if DRAWS_INDEXED.get() {
+            pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
+            pass.draw_indexed(3 * start..3 * end, 0, start..start + 1);
+            return;
+        }
         let first = number(vertices / 3 * start..vertices / 3 * end);
         for start in (start..end).step_by(DRAWN_TOGETHER as usize) {
             let end = end.min(start.saturating_add(DRAWN_TOGETHER));
@@ -142,10 +158,18 @@ thread_local! {
     /// The first number that no triangle of the pass has which this thread records. Lists tell
     /// triangles of all meshes apart by numbers, and draws know neither one another nor their map.
     static NEXT_NUMBER: Cell<u32> = const { Cell::new(0) };
+    /// Whether the pass that this thread records has a pipeline whose vertices are shared.
+    static DRAWS_INDEXED: Cell<bool> = const { Cell::new(false) };
+}
+
+/// Tells draws that follow what the pipeline wants.
+pub(super) fn draw_indexed(indexed: bool) {
+    DRAWS_INDEXED.set(indexed);
 }
 
 /// Begins to number triangles from 0.
 pub(super) fn number_anew() {
+    draw_indexed(false);
     NEXT_NUMBER.set(0);
 }
 
@@ -187,8 +211,12 @@ pub(super) fn mesh_layout(device: &wgpu::Device) -> BindGroupLayout {
 pub(super) struct TriangleCaster {
     /// Per pass: under the sun, under a spot.
     pipelines: Vec<[RenderPipeline; 2]>,
+    /// Per pass under the sun, where the device can.
+    indexed: Vec<Option<RenderPipeline>>,
+    /// Whether pipelines for cut-outs were asked for, which do not share vertices: then none does.
+    pulls: AtomicBool,
     /// For any pass and view.
-    pub(super) general: RenderPipeline,
+    general: RenderPipeline,
     coverages: &'static [Coverage],
     format: TextureFormat,
     size: Size,
@@ -231,15 +259,31 @@ impl TriangleCaster {
                 }],
             })
         };
-        let compiled = |kind| {
-            let shader = shader::triangles(technique, &Capabilities::of(device), None, kind);
-            pipelines.caster(&shader, &[format], |device| compile(device, &shader, format, &layout, &[]))
+        let capabilities = Capabilities::of(device);
+        let compiled = |pass| {
+            let shader = shader::triangles(technique, &capabilities, None, pass);
+            let conservative = pass == TrianglePass::Indexed(Coverage::Touched);
+            pipelines.caster(&shader, &[format], |device| {
+                compile(device, &shader, format, conservative, &layout, &[])
+            })
         };
-        let kinds = |coverage: &Coverage| [false, true].map(|spot| compiled(Some((*coverage, spot))));
+        let kinds =
+            |coverage: &Coverage| [false, true].map(|spot| compiled(TrianglePass::Pulled(*coverage, spot)));
+        let indexed = |coverage: &Coverage| {
+            let can = match coverage {
+                Coverage::Touched => capabilities.rasterises_conservatively(),
+                Coverage::Centre => capabilities.numbers_triangles(),
+            };
+            // Software drivers shade vertices as fast as fragments, of which there are more.
+            let software = device.adapter_info().device_type == wgpu::DeviceType::Cpu;
+            (can && !software).then(|| compiled(TrianglePass::Indexed(*coverage)))
+        };
         Self {
             groups: (0..slots).map(group).collect(),
             pipelines: coverages.iter().map(kinds).collect(),
-            general: compiled(None),
+            indexed: coverages.iter().map(indexed).collect(),
+            pulls: AtomicBool::new(false),
+            general: compiled(TrianglePass::Any),
             coverages,
             format,
             size,
@@ -248,7 +292,7 @@ impl TriangleCaster {
         }
     }
 
-    /// The pipeline that leaves out what the caller's WGSL says.
+    /// The pipeline that leaves out what the caller's WGSL says. From now on all pipelines pull vertices.
     pub(super) fn cutout(
         &self,
         device: &wgpu::Device,
@@ -256,14 +300,24 @@ impl TriangleCaster {
         wgsl: &str,
         user: &[&BindGroupLayout],
     ) -> RenderPipeline {
-        let shader = shader::triangles(technique, &Capabilities::of(device), Some(wgsl), None);
+        let shader = shader::triangles(technique, &Capabilities::of(device), Some(wgsl), TrianglePass::Any);
         let own = layout(device, "shadow caster view", &[BufferBindingType::Uniform]);
-        compile(device, &shader, self.format, &own, user)
+        self.pulls.store(true, Ordering::Relaxed);
+        compile(device, &shader, self.format, false, &own, user)
     }
 
-    /// The pipeline of a pass for a view of this kind.
+    /// The pipeline of a pass for a view of this kind, which the draws that follow are for.
     pub(super) fn pipeline(&self, view: &View, pass: usize) -> &RenderPipeline {
-        &self.pipelines[pass][perspective(view) as usize]
+        let shared = perspective(view) == 0 && !self.pulls.load(Ordering::Relaxed);
+        let indexed = self.indexed[pass].as_ref().filter(|_| shared);
+        draw_indexed(indexed.is_some());
+        indexed.unwrap_or(&self.pipelines[pass][perspective(view) as usize])
+    }
+
+    /// A pipeline for any pass and view, which the draws that follow are for.
+    pub(super) fn general(&self) -> &RenderPipeline {
+        draw_indexed(false);
+        &self.general
     }
 
     /// Passes per view: layers of the map.
@@ -295,6 +349,7 @@ fn compile(
     device: &wgpu::Device,
     shader: &str,
     format: TextureFormat,
+    conservative: bool,
     view: &BindGroupLayout,
     user: &[&BindGroupLayout],
 ) -> RenderPipeline {
@@ -320,6 +375,7 @@ fn compile(
         },
         primitive: wgpu::PrimitiveState {
             unclipped_depth: Capabilities::of(device).clamps_depth(),
+            conservative,
             ..Default::default()
         },
         depth_stencil: Some(wgpu::DepthStencilState {

@@ -12,7 +12,7 @@ use super::{
 use crate::{
     capabilities::Capabilities,
     light::{Size, View},
-    shader,
+    shader::{self, TrianglePass},
     technique::{Coverage, List, Technique},
 };
 use std::num::NonZeroU64;
@@ -175,7 +175,7 @@ impl Lists {
                 technique,
                 &Capabilities::of(device),
                 None,
-                Some((Coverage::Touched, spot)),
+                TrianglePass::Pulled(Coverage::Touched, spot),
             );
             pipelines.caster(&shader, &[], |device| compile(device, &shader, &draw_layout, &[]))
         };
@@ -203,7 +203,7 @@ impl Lists {
         wgsl: &str,
         user: &[&BindGroupLayout],
     ) -> RenderPipeline {
-        let shader = shader::triangles(technique, &Capabilities::of(device), Some(wgsl), None);
+        let shader = shader::triangles(technique, &Capabilities::of(device), Some(wgsl), TrianglePass::Any);
         compile(device, &shader, &draw_layout(device), user)
     }
 

@@ -72,7 +72,7 @@ fn variants() -> Vec<Box<dyn Technique>> {
 fn validate(text: &str) -> Result<naga::Module, String> {
     let module = naga::front::wgsl::parse_str(text).map_err(|e| e.emit_to_string(text))?;
     // Packing two 16-bit floats into a word is core WebGPU; naga counts it among what drivers may lack.
-    Validator::new(ValidationFlags::all(), Allowed::SHADER_FLOAT16_IN_FLOAT32)
+    Validator::new(ValidationFlags::all(), Allowed::SHADER_FLOAT16_IN_FLOAT32 | Allowed::PRIMITIVE_INDEX)
         .validate(&module)
         .map_err(|e| e.emit_to_string(text))?;
     Ok(module)
@@ -207,11 +207,14 @@ fn every_composed_receiver_and_pass_validates() {
             if technique.caster() != Caster::Depth {
                 let cutout =
                     "fn caster_covers(triangle: u32, weights: vec3f) -> bool { return weights.x < 0.5; }";
-                let known =
-                    [(Coverage::Touched, false), (Coverage::Touched, true), (Coverage::Centre, false)];
-                let known = known.map(|kind| (None, Some(kind)));
-                for (cutout, kind) in known.into_iter().chain([(None, None), (Some(cutout), None)]) {
-                    let text = triangles(technique.as_ref(), &device, cutout, kind);
+                use TrianglePass::{Any, Indexed, Pulled};
+                let both = [Coverage::Touched, Coverage::Centre];
+                let pulled = both.into_iter().flat_map(|c| [Pulled(c, false), Pulled(c, true)]);
+                let lists = matches!(technique.caster(), Caster::Lists { .. });
+                let indexed = both.into_iter().filter(|_| !lists).map(Indexed);
+                let plain = pulled.chain(indexed).chain([Any]).map(|pass| (None, pass));
+                for (cutout, pass) in plain.chain([(Some(cutout), Any)]) {
+                    let text = triangles(technique.as_ref(), &device, cutout, pass);
                     validate(&text).unwrap_or_else(|e| panic!("{spec}: {e}"));
                 }
             }

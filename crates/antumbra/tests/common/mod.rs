@@ -303,7 +303,7 @@ pub fn caster_mesh(gpu: &Gpu, corners: &[Vec3]) -> CasterMesh {
         let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("test mesh"),
             size: bytes.len().max(36) as u64,
-            usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
+            usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::INDEX | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         });
         gpu.queue.write_buffer(&buffer, 0, bytes);
