@@ -4,15 +4,17 @@ use crate::{
     capabilities::Capabilities,
     error::Unsupported,
     light::{Size, View},
-    pass::{self, Slot, Step, Work},
+    pass,
     shader::{self, ShaderText},
-    technique::{self, Bias, Binding, Caster, Map, Technique},
+    technique::{self, Bias, Binding, Caster, Technique},
 };
 use glam::Vec2;
 use wgpu::{RenderPass, TextureFormat};
 
 mod caster;
 mod check;
+mod draw;
+mod explain;
 mod lists;
 mod memory;
 mod pipelines;
@@ -22,18 +24,15 @@ mod uniforms;
 
 pub use caster::CasterMesh;
 use caster::TriangleCaster;
+use draw::Draw;
 use lists::{Lists, Room};
 pub use memory::{Lifetime, Memory, MemoryItem};
 pub use pipelines::Pipelines;
-use pipelines::Run;
 use textures::Textures;
 use uniforms::Uniforms;
 
 /// Format of the depth that casters draw into.
 pub const DEPTH_FORMAT: TextureFormat = TextureFormat::Depth32Float;
-
-/// Most colour attachments of a pass, on any device.
-const MOST_TARGETS: usize = 8;
 
 /// How a [`ShadowMap`] is made. A [`Size`] alone is enough.
 #[derive(Debug, Clone)]
@@ -96,19 +95,6 @@ pub struct TooManyViews {
     pub given: usize,
     /// Views that there is room for.
     pub room: usize,
-}
-
-/// A step with everything that encoding it takes.
-#[derive(Debug)]
-struct Draw {
-    label: &'static str,
-    run: Run,
-    /// Workgroups, if it dispatches.
-    groups: u32,
-    bind_group: wgpu::BindGroup,
-    targets: Vec<wgpu::TextureView>,
-    /// The caster pass that it follows, if not the last.
-    cast: Option<u32>,
 }
 
 /// Textures, pipelines and bindings of one technique at one size.
@@ -208,7 +194,10 @@ impl ShadowMap {
         let steps = pass::plan(technique, &capabilities, &maps, options.size);
         let draws = (0..options.views)
             .map(|view| {
-                steps.iter().map(|step| draw(&pipelines, &textures, &uniforms, &maps, step, view)).collect()
+                steps
+                    .iter()
+                    .map(|step| Draw::new(&pipelines, &textures, &uniforms, &maps, step, view))
+                    .collect()
             })
             .collect();
         let (layout, bind_group) =
@@ -379,23 +368,7 @@ impl ShadowMap {
         probe: &mut dyn Probe,
     ) {
         for draw in self.draws[view].iter().filter(|draw| now(draw)) {
-            match &draw.run {
-                Run::Draw(pipeline) => draw_step(encoder, draw, pipeline, probe.pass(draw.label, view)),
-                Run::Dispatch(pipeline) => {
-                    let timestamps = probe.pass(draw.label, view);
-                    let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
-                        label: Some(draw.label),
-                        timestamp_writes: timestamps.map(|t| wgpu::ComputePassTimestampWrites {
-                            query_set: t.query_set,
-                            beginning_of_pass_write_index: t.beginning_of_pass_write_index,
-                            end_of_pass_write_index: t.end_of_pass_write_index,
-                        }),
-                    });
-                    pass.set_pipeline(pipeline);
-                    pass.set_bind_group(0, &draw.bind_group, &[]);
-                    pass.dispatch_workgroups(draw.groups, 1, 1);
-                }
-            }
+            draw.encode(encoder, probe.pass(draw.label, view));
         }
     }
 
@@ -472,85 +445,6 @@ impl ShadowMap {
     /// Which formats and paths were chosen on this device, one sentence each.
     #[must_use]
     pub fn explain(&self) -> Vec<String> {
-        let mut lines = Vec::new();
-        if !self.capabilities.clamps_depth() {
-            lines.push(
-                "no depth clamping (depth-clip-control): move vertices onto the near plane with caster_pancaked"
-                    .into(),
-            );
-        }
-        lines.extend(self.technique.fallbacks(&self.capabilities));
-        lines.extend(self.lists.as_ref().map(Lists::explain));
-        let parts = self.technique.parts(&self.capabilities);
-        for (i, map) in self.textures.maps().iter().enumerate() {
-            let format = map.texture.format();
-            let way = match parts.as_slice() {
-                // Other maps than the first are not read through `lookup_filtered`.
-                _ if i > 0 => "",
-                ["lookup_summed", ..] => ", a summed-area table (sixteen loads)",
-                ["lookup_nearest", ..] => ", read one texel at a time",
-                [_, "level_logarithmic", ..] => ", interpolated as powers by the shader (four loads)",
-                [_, "level_manual", ..] => ", interpolated by the shader (four loads)",
-                _ => ", interpolated by the sampler",
-            };
-            lines.push(format!("{} in {format:?}{way}", map.name));
-            let together = self.capabilities.targets_per_pass(format).min(map.layers);
-            if together < map.layers {
-                lines.push(format!("{} layers of {} in passes of {together}", map.layers, map.name));
-            }
-        }
-        if parts.contains(&"lookup_anisotropic") {
-            lines.push(
-                "anisotropic lookups by a loop in the shader, the same on every driver, not by the sampler"
-                    .into(),
-            );
-        }
-        lines
+        explain::lines(self.technique.as_ref(), &self.capabilities, &self.textures, self.lists.as_ref())
     }
-}
-
-/// Runs a full-screen step.
-fn draw_step(
-    encoder: &mut wgpu::CommandEncoder,
-    draw: &Draw,
-    pipeline: &wgpu::RenderPipeline,
-    timestamp_writes: Option<wgpu::RenderPassTimestampWrites<'_>>,
-) {
-    let attachments: [_; MOST_TARGETS] =
-        std::array::from_fn(|i| draw.targets.get(i).map(|t| textures::written(t)));
-    let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-        label: Some(draw.label),
-        color_attachments: &attachments[..draw.targets.len()],
-        depth_stencil_attachment: None,
-        timestamp_writes,
-        occlusion_query_set: None,
-        multiview_mask: None,
-    });
-    pass.set_pipeline(pipeline);
-    pass.set_bind_group(0, &draw.bind_group, &[]);
-    pass.draw(0..3, 0..1);
-}
-
-/// Binds a step to the textures of one view.
-fn draw(
-    pipelines: &Pipelines,
-    textures: &Textures,
-    uniforms: &Uniforms,
-    maps: &[Map],
-    step: &Step,
-    view: u32,
-) -> Draw {
-    let format = |slot| match slot {
-        Slot::Map(i) | Slot::Scratch(i) => maps[i].format,
-        Slot::Casters | Slot::Casts { .. } => DEPTH_FORMAT,
-    };
-    let formats: Vec<TextureFormat> = step.targets.iter().map(|t| format(t.slot)).collect();
-    let pipeline = pipelines.get(step, &formats);
-    let (source, targets) = (textures.source(step, view), textures.targets(step, view));
-    let bind_group = pipelines.bind(&pipeline, step, [&source, &targets[0]], uniforms.convert(view));
-    let groups = match step.work {
-        Work::Draw => 0,
-        Work::Lanes(lanes) => lanes.div_ceil(pass::WORKGROUP),
-    };
-    Draw { label: step.label, run: pipeline.run, groups, bind_group, targets, cast: step.cast() }
 }

@@ -6,6 +6,7 @@
 use super::{
     DEPTH_FORMAT, Probe,
     caster::{self, CasterView, VIEW_BYTES},
+    draw,
     memory::{Lifetime, MemoryItem},
     pipelines::Pipelines,
 };
@@ -234,14 +235,7 @@ impl Lists {
         for fills in 0..2 {
             if fills == 1 {
                 let timestamps = probe.pass("scan", index);
-                let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
-                    label: Some("scan"),
-                    timestamp_writes: timestamps.map(|t| wgpu::ComputePassTimestampWrites {
-                        query_set: t.query_set,
-                        beginning_of_pass_write_index: t.beginning_of_pass_write_index,
-                        end_of_pass_write_index: t.end_of_pass_write_index,
-                    }),
-                });
+                let mut pass = draw::compute_pass(encoder, "scan", timestamps);
                 pass.set_pipeline(&self.scan);
                 pass.set_bind_group(0, &self.scans[index], &[]);
                 let texels = (self.room.count_bytes() / 4) as u32;
