@@ -70,7 +70,8 @@ pub(crate) const SOURCE: Source = Source {
             paper: "Few terms brighten shadows where occluder and receiver are close: a low square, a slanted polygon that \
                     touches the ground. M = 4 is satisfactory, without noticeable intensity artifacts; M = 16 is sharper.",
             ours: "The scenes blocks, with four floating squares and a slanted polygon, and spheres; 1024² maps, 3×3 Gauss, \
-                   8-bit coefficients, M from 1 to 32. Contact is where the caster is nearer than a twentieth of the depth range.",
+                   8-bit coefficients, M from 1 to 32, lit by the offset; the paper does not say which lift its figure has, so \
+                   M = 4 is judged with the scale too. Contact is where the caster is nearer than a twentieth of the depth range.",
             seconds: [22, 3],
             run: terms::figure_6,
         },
@@ -111,7 +112,8 @@ pub(crate) const SOURCE: Source = Source {
             paper: "A scene moves away from the camera. PCF aliases, in space and in time; a CSM with a 5×5 filter and \
                     tri-linear lookups does not, and shadows stay good as the scene fades away.",
             ours: "The scene fence, from which the camera moves away to eight times its distance in 48 frames; a 1024² \
-                   map. Every frame is traced with 16 rays per pixel, and what changes otherwise than they do is flicker.",
+                   map. Sun, map and scene keep their places to one another when a scene is moved away from a camera, so it \
+                   is the same whether scene or camera moves. Every frame is traced with 16 rays per pixel, and what changes otherwise than they do is flicker.",
             seconds: [120, 12],
             run: receding::figure_10,
         },
