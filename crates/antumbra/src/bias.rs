@@ -149,11 +149,7 @@ impl BiasTerms {
 
     /// For 2×2 texels that are compared together, with the plane at the highest of them: which is half a
     /// texel's slope or more too near to the light for the others, so that little is left to add.
-    pub(crate) const FOURS: Self = Self {
-        slope_texels: 0.05,
-        grazing_offset_texels: 0.2,
-        ..Self::TEXELS
-    };
+    pub(crate) const FOURS: Self = Self { slope_texels: 0.05, grazing_offset_texels: 0.18, ..Self::TEXELS };
 
     /// The terms by name.
     fn named(&mut self) -> [(&'static str, &mut f32); 6] {

@@ -75,7 +75,8 @@ pub(crate) fn run(arguments: &Bias) -> Result<()> {
 
 /// How many times the error of the best other bias `auto` has.
 fn standing_line(standing: &bias::Standing<'_>) -> String {
-    let against = |best: &bias::Row| format!("{:.2} times that of {}", standing.auto.rmse / best.rmse, best.bias);
+    let against =
+        |best: &bias::Row| format!("{:.2} times that of {}", standing.auto.rmse / best.rmse, best.bias);
     let best = standing.best.map_or("not comparable, all leave acne".into(), against);
     let all = match standing.best {
         Some(best) if best == standing.best_of_all => String::new(),
