@@ -142,7 +142,7 @@ impl BiasTerms {
         constant_texels: 0.1,
         slope_texels: 0.3,
         normal_offset_texels: 0.0,
-        grazing_offset_texels: 0.5,
+        grazing_offset_texels: 0.4,
         receiver_plane: 1.75,
         depth_steps: 0.5,
     };
