@@ -72,7 +72,9 @@ const BIAS_EXAMPLES: &str = "Examples:
   antumbra bias model.glb --techniques pcf.kernel=7 --settings auto none constant_texels=2
 
 Settings: auto, none, or terms joined by commas, each in the unit of its name: constant_texels,
-slope_texels, normal_offset_texels, receiver_plane (0 to 1), depth_steps.";
+slope_texels, normal_offset_texels, grazing_offset_texels, receiver_plane (0 to 1, more is
+steeper), depth_steps. Below each table: auto against the best of the other settings among those that
+leave at most 1 % of the fully lit pixels in acne, and among all.";
 const FLICKER_EXAMPLES: &str = "Examples:
   antumbra flicker fence -o flicker
   antumbra flicker spheres --path light --frames 60 --techniques hard spsm

@@ -29,6 +29,10 @@ const SHADOWED: f32 = 0.25;
 /// Tolerance within which an ideal counts as fully lit.
 const ROUNDING: f32 = 1e-3;
 
+/// Share of the fully lit pixels that may be answered shadowed with a fixed bias that [`Standing`] lets
+/// compete: beyond, it fails at what biases are for, however small its error.
+pub const TOLERATED_ACNE: f64 = 0.01;
+
 /// What to look at.
 #[derive(Debug)]
 pub struct Request<'a> {
@@ -66,6 +70,40 @@ pub struct Row {
     pub rmse: f64,
     /// Mean of 1 − visibility over pixels that are fully lit in the ideal.
     pub over_darkening: f64,
+}
+
+/// [`Bias::Auto`] among the other biases of one technique.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Standing<'a> {
+    /// Of [`Bias::Auto`].
+    pub auto: &'a Row,
+    /// Of the other biases, in their order.
+    pub others: Vec<&'a Row>,
+    /// The one of least error among those with at most [`TOLERATED_ACNE`], if there is one.
+    pub best: Option<&'a Row>,
+    /// The one of least error, whatever its acne.
+    pub best_of_all: &'a Row,
+}
+
+/// The standing of [`Bias::Auto`] for each technique, in the order of `rows`; techniques without it or
+/// without another bias are left out.
+#[must_use]
+pub fn standings(rows: &[Row]) -> Vec<Standing<'_>> {
+    let automatic = Bias::Auto.to_string();
+    let (autos, others): (Vec<&Row>, Vec<&Row>) = rows.iter().partition(|row| row.bias == automatic);
+    let mut standings = Vec::new();
+    for auto in autos {
+        let others: Vec<&Row> = others.iter().copied().filter(|o| o.technique == auto.technique).collect();
+        let least = |most_acne: f64| {
+            let able = others.iter().copied().filter(|row| row.acne <= most_acne);
+            able.min_by(|a, b| a.rmse.total_cmp(&b.rmse))
+        };
+        if let Some(best_of_all) = least(1.0) {
+            let best = least(TOLERATED_ACNE);
+            standings.push(Standing { auto, best, best_of_all, others });
+        }
+    }
+    standings
 }
 
 /// Renders every technique with every bias and compares with rays. A technique without a kernel is
@@ -216,5 +254,31 @@ mod tests {
             assert!((detached(&sparse).unwrap() - bias).abs() < 1e-9);
         }
         assert_eq!(detached(&[(0, 3)]), None);
+    }
+
+    #[test]
+    fn a_fixed_bias_competes_if_it_does_its_work() {
+        let row = |technique: &str, bias: &str, acne, rmse| Row {
+            technique: technique.into(),
+            bias: bias.into(),
+            acne,
+            detached_texels: None,
+            rmse,
+            over_darkening: 0.0,
+        };
+        let rows = [
+            row("hard", "none", 0.3, 0.1),
+            row("hard", "auto", 0.0, 0.15),
+            row("hard", "slope_texels=1", TOLERATED_ACNE, 0.2),
+            row("hard", "slope_texels=2", 0.0, 0.3),
+            row("pcf", "auto", 0.0, 0.1),
+            row("pcf", "none", 0.5, 0.05),
+            row("esm", "auto", 0.0, 0.1),
+            row("vsm", "none", 0.0, 0.1),
+        ];
+        let [hard, pcf] = standings(&rows).try_into().unwrap();
+        assert_eq!((hard.auto, hard.best, hard.best_of_all), (&rows[1], Some(&rows[2]), &rows[0]));
+        assert_eq!(hard.others, [&rows[0], &rows[2], &rows[3]]);
+        assert_eq!((pcf.auto, pcf.best, pcf.best_of_all), (&rows[4], None, &rows[5]));
     }
 }

@@ -219,6 +219,7 @@ fn broken() -> Vec<(&'static str, usize, Broken)> {
     let stored = |format, spec| Broken { format: Some(format), ..Broken::new(spec) };
     let uniform = |name, value, spec| Broken { uniform: Some((name, value)), ..Broken::new(spec) };
     let unbiased = |spec| Broken { bias: Some(BiasTerms::NONE), ..Broken::new(spec) };
+    let aside = "compare, uv + vec2f(0.5) / vec2f(textureDimensions(casters)), view";
     let zero = Broken::saying(
         "esm.kernel=5",
         "exp(c * depth), 0.0, 0.0",
@@ -240,6 +241,15 @@ fn broken() -> Vec<(&'static str, usize, Broken)> {
         ("no bias", LAYERS, unbiased("hard")),
         ("no bias", FENCE, unbiased("pcf.kernel=5")),
         ("a kernel nearly twice as wide", LAYERS, Broken::new("pcf.kernel=9")),
+        ("half a texel aside", LAYERS, Broken::saying("pcf.kernel=5", "compare, uv, view", aside)),
+        ("weights that do not sum to one", FENCE, Broken { weights: 0.97, ..Broken::new("pcf.kernel=5") }),
+        ("a tap dropped", FENCE, Broken::saying("poisson.kernel=5", "var i = 0u; i <", "var i = 1u; i <")),
+        ("a tap dropped", FENCE, Broken::saying("stratified", "k < COUNT", "k + 1u < COUNT")),
+        (
+            "no half texel towards the four texels' corner",
+            LAYERS,
+            Broken::saying("packed", "vec2f(0.5, -0.5)", "vec2f(0.0, 0.0)"),
+        ),
         ("a shallow decay", CONTACT, Broken::new("esm.c=20,kernel=5")),
         ("a blur that brightens", FENCE, Broken { weights: 1.02, ..Broken::new("vsm.kernel=5") }),
         ("one warp", LAYERS, Broken::new("evsm.moments=two,kernel=5")),

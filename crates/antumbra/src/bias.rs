@@ -103,9 +103,14 @@ pub struct BiasTerms {
     pub slope_texels: f32,
     /// Along the receiver's normal, in texels.
     pub normal_offset_texels: f32,
+    /// Along the receiver's normal, in texels, times (1 − cos θ)², θ being the angle between normal and
+    /// light: an offset for receivers that the light grazes, which does not push the shadows on others
+    /// aside.
+    pub grazing_offset_texels: f32,
     /// How much of the receiver's plane comparisons follow uphill: 0, every texel is compared with the
-    /// receiver's own depth; 1, with the depth of the plane there; beyond 1, with that of a steeper plane,
-    /// a bias that grows with the distance in the kernel. The comparison family alone reads it.
+    /// receiver's own depth; 1, with the depth of the plane there; beyond 1, with that of a plane so many
+    /// times as steep, but at most 1.5 texels of depth per texel steeper: a bias that grows with the distance
+    /// in the kernel. The comparison family alone reads it.
     pub receiver_plane: f32,
     /// Towards the light, in steps of the stored depth ([`Technique::depth_step`]) and, as these have no
     /// steps, in what floats lose on the way (8 units in the last place of a projected depth from ½ to 1);
@@ -119,6 +124,7 @@ impl BiasTerms {
         constant_texels: 0.0,
         slope_texels: 0.0,
         normal_offset_texels: 0.0,
+        grazing_offset_texels: 0.0,
         receiver_plane: 0.0,
         depth_steps: 0.0,
     };
@@ -127,33 +133,31 @@ impl BiasTerms {
     ///
     /// The rasteriser snaps vertices to 1/256 texel, which tilts small facets: on steep ones depths err by
     /// a share of their slope. And a facet is not the whole surface: in a fold the neighbours stand above
-    /// its plane, by more the farther away they are, so the plane is followed as if it were steeper by a
-    /// third. What these constants are is measured: `docs/bias.md` compares them, view by view, with the
-    /// best fixed bias, and says where that is better.
+    /// its plane, by more the farther away they are, so a steeper plane is followed; and a rough surface
+    /// stands off its own facets, which an offset along the normal clears however steep they are, and
+    /// which moves the receiver no farther than it is long. All of it costs shadows of whatever else
+    /// hangs as near, so what grows with the slope is bounded: `docs/bias.md` says how the constants were
+    /// chosen, and compares them, view by view, with the best fixed bias.
     pub(crate) const TEXELS: Self = Self {
-        constant_texels: 0.05,
+        constant_texels: 0.1,
         slope_texels: 0.3,
-        normal_offset_texels: 0.25,
-        receiver_plane: 1.3,
+        normal_offset_texels: 0.0,
+        grazing_offset_texels: 0.4,
+        receiver_plane: 1.75,
         depth_steps: 0.5,
     };
 
     /// For 2×2 texels that are compared together, with the plane at the highest of them: which is half a
     /// texel's slope or more too near to the light for the others, so that little is left to add.
-    pub(crate) const FOURS: Self = Self {
-        constant_texels: 0.05,
-        slope_texels: 0.1,
-        normal_offset_texels: 0.1,
-        receiver_plane: 1.35,
-        depth_steps: 0.5,
-    };
+    pub(crate) const FOURS: Self = Self { slope_texels: 0.05, grazing_offset_texels: 0.18, ..Self::TEXELS };
 
     /// The terms by name.
-    fn named(&mut self) -> [(&'static str, &mut f32); 5] {
+    fn named(&mut self) -> [(&'static str, &mut f32); 6] {
         [
             ("constant_texels", &mut self.constant_texels),
             ("slope_texels", &mut self.slope_texels),
             ("normal_offset_texels", &mut self.normal_offset_texels),
+            ("grazing_offset_texels", &mut self.grazing_offset_texels),
             ("receiver_plane", &mut self.receiver_plane),
             ("depth_steps", &mut self.depth_steps),
         ]

@@ -202,7 +202,7 @@ pub(crate) fn receiver(
         technique.widths().iter().map(|(width, _)| format!(", width_{width}: f32")).collect();
     let mut glue = format!(
         "struct ShadowView {{ clip_from_world: mat4x4f, depth_plane: vec4f, to_light: vec4f, texel_world: f32, near_over_far: f32, reach_x: f32, reach_y: f32{widths} }}\n\
-         struct ShadowUniforms {{\n    views: array<ShadowView, {views}>,\n    view_count: u32, width: f32, height: f32,\n    constant_texels: f32, slope_texels: f32, normal_offset_texels: f32,\n    receiver_plane: f32, constant_depth: f32, float_steps: f32,\n"
+         struct ShadowUniforms {{\n    views: array<ShadowView, {views}>,\n    view_count: u32, width: f32, height: f32,\n    constant_texels: f32, slope_texels: f32, normal_offset_texels: f32, grazing_offset_texels: f32,\n    receiver_plane: f32, constant_depth: f32, float_steps: f32,\n"
     );
     for (uniform, _) in technique.uniforms() {
         let _ = writeln!(glue, "    setting_{uniform}: f32,");
@@ -235,7 +235,7 @@ pub(crate) fn receiver(
     };
     // Other families do not compare texels one by one: what they do with the plane is no bias.
     let followed = match technique.page().family {
-        Family::Comparison => "shadow.receiver_plane * plane",
+        Family::Comparison => "receiver_followed(plane, shadow.receiver_plane, diagonal)",
         Family::Basis | Family::Geometry => "plane",
     };
     let mut function = |kind: &str, result: &str, outside: &str| {

@@ -215,7 +215,7 @@ pub enum DepthSpace {
 /// `x_visibility(bindings…, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f,
 /// ddy: vec2f, uniforms…, widths…) -> f32`: `uv` in the map, y down; `depth` of the receiver, bias applied,
 /// in [`Technique::depth_space`]; `plane`, the depth that the receiver's plane gains per unit of
-/// `uv` (times [`BiasTerms::receiver_plane`] in the comparison family); `ddx`, `ddy`, the change of `uv` from this pixel to the next. The result is 0 (in shadow)
+/// `uv` (as [`BiasTerms::receiver_plane`] says in the comparison family); `ddx`, `ddy`, the change of `uv` from this pixel to the next. The result is 0 (in shadow)
 /// to 1 (lit).
 pub trait Technique: Debug + Send + Sync {
     /// Name, title, family, paper.

@@ -9,11 +9,12 @@
 mod common;
 
 use antumbra::{
-    Options, ShadowMap, Size, technique,
+    Options, ShadowMap, Size, Technique, technique,
     technique::{Bias, Caster},
 };
 use antumbra_testing::{
     Gpu, Trials,
+    broken::Broken,
     image::{Image, Tolerance},
 };
 use common::{Receiver, depth_layers, depth_texture, shadow_map, visibility};
@@ -114,6 +115,11 @@ fn picture(gpu: &Gpu, spec: &str, bias: Bias) -> Vec<f32> {
     if technique.caster() != Caster::Depth {
         return behind(gpu, spec, SIZE, &triangles(), &receivers());
     }
+    picture_of(gpu, technique.as_ref(), bias)
+}
+
+/// The picture of a technique that keeps depth.
+fn picture_of(gpu: &Gpu, technique: &dyn Technique, bias: Bias) -> Vec<f32> {
     let jitter = technique.jitter();
     let texel = |i: u32, offset: f32| (i as f32 + 0.5 + offset) / 64.0;
     let depth = depth_layers(gpu, SIZE, jitter.len() as u32, |pass, x, y| {
@@ -121,7 +127,7 @@ fn picture(gpu: &Gpu, spec: &str, bias: Bias) -> Vec<f32> {
         nearest(texel(x, offset.x), texel(y, offset.y))
     });
     let options = Options { bias, ..SIZE.into() };
-    let shadows = shadow_map(gpu, technique.as_ref(), &depth, options);
+    let shadows = shadow_map(gpu, technique, &depth, options);
     visibility(gpu, &shadows, &receivers())
 }
 
@@ -260,6 +266,45 @@ fn stratified_has_as_many_levels_as_samples(gpu: &Gpu) {
         let samples = grid * grid;
         assert!(in_steps_of(&picture, 1.0 / samples as f32), "{grid}×{grid}");
         assert!(levels(&picture) <= samples as usize + 1 && levels(&picture) > samples as usize / 2);
+    }
+}
+
+/// n×n samples in a texel are those of a map n times as fine along each axis: their mean is the mean of
+/// its n×n texels, exactly.
+fn stratified_resolves_as_a_finer_map(gpu: &Gpu) {
+    const TEXELS: u32 = 48;
+    let seen = |spec: &str, size: u32, receivers: &[Receiver]| {
+        let technique = technique::parse(spec).unwrap();
+        let jitter = technique.jitter();
+        let texel = |i: u32, offset: f32| (i as f32 + 0.5 + offset) / size as f32;
+        let depth = depth_layers(gpu, Size::square(size), jitter.len() as u32, |pass, x, y| {
+            let offset = jitter[pass as usize];
+            nearest(texel(x, offset.x), texel(y, offset.y))
+        });
+        // Without a bias, whose texels are those of the map.
+        let options = Options { bias: Bias::NONE, ..Size::square(size).into() };
+        visibility(gpu, &shadow_map(gpu, technique.as_ref(), &depth, options), receivers)
+    };
+    // Centres of the n×n parts of each texel of the coarse map, texel by texel, between its casters and
+    // the ground.
+    let parts = |n: u32| -> Vec<Receiver> {
+        let at = |texel: u32, part: u32| (texel as f32 + (part as f32 + 0.5) / n as f32) / TEXELS as f32;
+        let texels = (1..TEXELS - 1).flat_map(|y| (1..TEXELS - 1).map(move |x| (x, y)));
+        texels
+            .flat_map(|(x, y)| (0..n * n).map(move |k| Receiver::point(at(x, k % n), at(y, k / n), 0.5)))
+            .collect()
+    };
+    for n in [2, 3, 4] {
+        let stratified = seen(&format!("stratified.grid={n}"), TEXELS, &parts(1));
+        let of_finer = |times: u32| -> Vec<f32> {
+            seen("hard", times * TEXELS, &parts(times)).chunks(times.pow(2) as usize).map(mean).collect()
+        };
+        let differ = |other: &[f32]| std::iter::zip(&stratified, other).filter(|(a, b)| a != b).count();
+        assert_eq!(differ(&of_finer(n)), 0, "{n}×{n}");
+        for wrong in [1, n - 1, n + 1] {
+            let count = differ(&of_finer(wrong));
+            assert!(count > 40, "{n}×{n} samples are those of {wrong}×{wrong} but in {count} texels");
+        }
     }
 }
 
@@ -403,6 +448,7 @@ fn main() {
         ("footprint", "grows with the pixel", footprint_grows_with_the_pixel),
         ("packed", "the levels of the paper", packed_has_the_levels_of_the_paper),
         ("stratified", "as many levels as samples", stratified_has_as_many_levels_as_samples),
+        ("stratified", "resolves as a finer map", stratified_resolves_as_a_finer_map),
         ("vsm", "bleeds between two layers", vsm_bleeds_between_two_layers),
         ("csm", "brighter at contact with fewer terms", csm_is_brighter_at_contact_with_fewer_terms),
         ("esm", "needs no bias", esm_needs_no_bias),
@@ -435,5 +481,23 @@ fn main() {
         image.compare(&Image::read(&path("vsm")).unwrap(), TOLERANCE).unwrap_err();
         image.compare(&Image::read(&path("hard")).unwrap(), TOLERANCE).unwrap_err();
     });
+    let aside = "compare, uv + vec2f(0.5) / vec2f(textureDimensions(casters)), view";
+    for (what, broken) in [
+        ("half a texel aside", Broken::saying("pcf", "compare, uv, view", aside)),
+        ("weights that do not sum to one", Broken { weights: 0.97, ..Broken::new("pcf") }),
+        ("a tap dropped", Broken::saying("stratified", "k < COUNT", "k + 1u < COUNT")),
+        ("a tap dropped", Broken::saying("poisson", "var i = 0u; i <", "var i = 1u; i <")),
+        (
+            "no half texel towards the four texels' corner",
+            Broken::saying("packed", "vec2f(0.5, -0.5)", "vec2f(0.0, 0.0)"),
+        ),
+    ] {
+        let name = broken.page().name;
+        let path = path(name);
+        trials.add(format!("rejected: {what} ({name})"), move |gpu| {
+            let image = Image::grey(SIDE, &picture_of(gpu, &broken, Bias::Auto));
+            image.compare(&Image::read(&path).unwrap(), TOLERANCE).unwrap_err();
+        });
+    }
     trials.run();
 }

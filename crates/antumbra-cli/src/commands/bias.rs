@@ -61,11 +61,26 @@ pub(crate) fn run(arguments: &Bias) -> Result<()> {
                 format!("{:.3}", 100.0 * row.over_darkening),
             ]
         };
-        let rows: Vec<Vec<String>> = rows.iter().map(cells).collect();
-        table::print(out, &["technique", "bias", "acne %", "detached texels", "RMSE", "dark %"], &rows)?;
+        let table: Vec<Vec<String>> = rows.iter().map(cells).collect();
+        table::print(out, &["technique", "bias", "acne %", "detached texels", "RMSE", "dark %"], &table)?;
+        for standing in bias::standings(&rows) {
+            writeln!(out, "{}", standing_line(&standing))?;
+        }
     }
     if arguments.json {
         writeln!(out, "{}", serde_json::to_string_pretty(&all)?)?;
     }
     Ok(())
+}
+
+/// How many times the error of the best other bias `auto` has.
+fn standing_line(standing: &bias::Standing<'_>) -> String {
+    let against =
+        |best: &bias::Row| format!("{:.2} times that of {}", standing.auto.rmse / best.rmse, best.bias);
+    let best = standing.best.map_or("not comparable, all leave acne".into(), against);
+    let all = match standing.best {
+        Some(best) if best == standing.best_of_all => String::new(),
+        _ => format!("; {}, which leaves acne", against(standing.best_of_all)),
+    };
+    format!("{}: RMSE of auto {best}{all}", standing.auto.technique)
 }

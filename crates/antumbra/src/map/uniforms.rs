@@ -120,9 +120,9 @@ impl Uniforms {
     }
 }
 
-/// Size of the receivers' buffer: views, their count, eight scalars, settings.
+/// Size of the receivers' buffer: views, their count, nine scalars, settings.
 pub(super) fn bytes(technique: &dyn Technique, views: u32) -> u64 {
-    let scalars = 4 * (9 + technique.uniforms().len() as u64);
+    let scalars = 4 * (10 + technique.uniforms().len() as u64);
     (u64::from(views) * view_bytes(technique.widths().len()) + scalars).next_multiple_of(16)
 }
 
@@ -145,6 +145,7 @@ fn scalars(technique: &dyn Technique, bias: BiasTerms, size: Size) -> Vec<f32> {
         bias.constant_texels,
         bias.slope_texels,
         bias.normal_offset_texels,
+        bias.grazing_offset_texels,
         bias.receiver_plane,
         bias.depth_steps * technique.depth_step(),
         bias.depth_steps,

@@ -36,3 +36,9 @@ fn receiver_plane(duv_s: vec2f, duv_t: vec2f, ddepth: vec2f, steepest: vec2f) ->
     let safe = select(area, select(1e-30, -1e-30, area < 0.0), abs(area) < 1e-30);
     return clamp(gain / safe, -steepest, steepest);
 }
+
+/// The plane that comparisons follow: `share` times the receiver's, but at most 1.5 texels of depth per
+/// texel steeper than it. `diagonal` is what a plane at 45° gains.
+fn receiver_followed(plane: vec2f, share: f32, diagonal: vec2f) -> vec2f {
+    return plane * min(share, 1.0 + 1.5 / max(length(plane / diagonal), 1e-6));
+}

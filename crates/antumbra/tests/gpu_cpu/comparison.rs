@@ -189,9 +189,10 @@ pub(crate) fn merged_taps_follow_the_plane(gpu: &Gpu) {
         let found = ask(gpu, &pcf, "", &rows);
         let weights: Vec<f64> =
             antumbra::Kernel::new(pcf.weights, kernel, 0.0).taps.iter().map(|w| f64::from(*w)).collect();
-        let sum = |comparisons: Comparisons| -> Sum {
-            let weights = weights.clone();
+        let sum = |comparisons: Comparisons, weights: &[f64], shift: f64| -> Sum {
+            let weights = weights.to_vec();
             Box::new(move |r| {
+                let r = &std::array::from_fn(|i| if i < 2 { r[i] + shift / 64.0 } else { r[i] });
                 let first = [0, 1].map(|axis| (r[axis] * 64.0 - weights.len() as f64 / 2.0).floor());
                 let share = |axis: usize, j: usize| {
                     let f = r[axis] * 64.0 - weights.len() as f64 / 2.0 - first[axis];
@@ -209,11 +210,17 @@ pub(crate) fn merged_taps_follow_the_plane(gpu: &Gpu) {
                 ([lit.sum()], error)
             })
         };
+        let dropped = [&[0.0], &weights[1..]].concat();
+        let brighter: Vec<f64> = weights.iter().map(|w| w * 1.02).collect();
+        let plain = Comparisons::new;
         let wrong = [
-            ("a flatter plane", sum(Comparisons { uphill: 0.8, ..Comparisons::new() })),
-            ("a plane followed downhill", sum(Comparisons { downhill: 1.0, ..Comparisons::new() })),
+            ("a flatter plane", sum(Comparisons { uphill: 0.8, ..plain() }, &weights, 0.0)),
+            ("a plane followed downhill", sum(Comparisons { downhill: 1.0, ..plain() }, &weights, 0.0)),
+            ("half a texel aside", sum(plain(), &weights, 0.5)),
+            ("a row and a column of taps dropped", sum(plain(), &dropped, 0.0)),
+            ("weights that do not sum to one", sum(plain(), &brighter, 0.0)),
         ];
-        holds(&technique::spec(&pcf), &rows, &found, sum(Comparisons::new()), &wrong);
+        holds(&technique::spec(&pcf), &rows, &found, sum(plain(), &weights, 0.0), &wrong);
     }
 }
 

@@ -158,6 +158,7 @@ fn main() {
     trials.add("raster depth is cleaned", receiver::raster_depth_is_cleaned);
     trials.add("receivers are projected", receiver::receivers_are_projected);
     trials.add("receiver planes are solved", receiver::receiver_planes_are_solved);
+    trials.add("steeper planes are followed", receiver::steeper_planes_are_followed);
     trials.add("pcf is a weighted sum", comparison::pcf_is_a_weighted_sum);
     trials.add("taps agree", comparison::taps_agree);
     trials.add("merged taps follow the plane", comparison::merged_taps_follow_the_plane);

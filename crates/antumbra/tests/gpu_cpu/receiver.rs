@@ -156,3 +156,24 @@ pub(crate) fn receiver_planes_are_solved(gpu: &Gpu) {
         assert!(residual(r, g) < 1e-3, "{g:?} for {r:?}");
     }
 }
+
+/// A share of the plane, or a steeper one, but no more than 1.5 times the diagonal's gain steeper.
+pub(crate) fn steeper_planes_are_followed(gpu: &Gpu) {
+    const DIAGONAL: f64 = 0.25;
+    let shadows = shadows(gpu, &technique::Hard::default(), 1);
+    let mut rows = rows(9, |r| row([r.range(-2.0, 2.0), r.range(-2.0, 2.0), r.range(0.0, 3.0)]));
+    rows.push(row([0.0, 0.0, 2.0]));
+    let body = format!("put2(0u, receiver_followed(take2(0u), take(2u), vec2f({DIAGONAL:?})));");
+    let found = run::<2>(gpu, &shadows, &body, &rows);
+    let followed = |most: f64| {
+        move |r: &[f64; INPUTS]| {
+            let slope = r[0].hypot(r[1]) / DIAGONAL;
+            let steeper = (slope * (r[2] - 1.0)).min(most);
+            let factor = if slope > 0.0 { 1.0 + steeper / slope } else { 0.0 };
+            ([r[0] * factor, r[1] * factor], 4e-6)
+        }
+    };
+    compare(&rows, &found, followed(1.5)).unwrap();
+    compare(&rows, &found, followed(1.45)).unwrap_err();
+    compare(&rows, &found, followed(f64::INFINITY)).unwrap_err();
+}

@@ -101,6 +101,7 @@ fn what_is_written_lies_where_the_shader_reads_it() {
         constant_texels: 1.5,
         slope_texels: 2.5,
         normal_offset_texels: 3.5,
+        grazing_offset_texels: 5.5,
         receiver_plane: 0.75,
         depth_steps: 4.5,
     };
@@ -133,6 +134,7 @@ fn what_is_written_lies_where_the_shader_reads_it() {
             ("constant_texels".into(), 1.5),
             ("slope_texels".into(), 2.5),
             ("normal_offset_texels".into(), 3.5),
+            ("grazing_offset_texels".into(), 5.5),
             ("receiver_plane".into(), 0.75),
             ("constant_depth".into(), 4.5 * technique.depth_step()),
             ("float_steps".into(), 4.5),
