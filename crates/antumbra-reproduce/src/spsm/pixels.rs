@@ -92,14 +92,14 @@ pub(super) fn figure_11(bench: &Bench<'_>) -> Result<Page> {
 
 fn smoother(one: f64, sixteen: f64) -> Verdict {
     Verdict::new(
-        "Asking the recovered silhouette at several positions of a pixel smooths the shadow's edge",
+        "Asking for the shadow at several positions of a pixel smooths its edge",
         [less("RMSE with 4×4 samples", sixteen, "0.7 of that with one", 0.7 * one)],
     )
 }
 
 fn cheap(ratio: f64) -> Verdict {
     Verdict::new(
-        "Anti-aliasing costs little, since only uncertain pixels are sampled",
+        "Anti-aliasing costs little, since only pixels near edges are sampled",
         [at_most("frame time with 4×4 samples over that with one", ratio, "1.1", 1.1)],
     )
 }

@@ -13,7 +13,7 @@ use anyhow::{Context, Result};
 
 const PAIR: [(&str, &str); 2] = [("hard", "standard map"), ("spsm", "SPSM")];
 /// Name of the technique's kind of pixels.
-const RECOVERED: &str = "silhouette recovered";
+const UNCERTAIN: &str = "uncertain";
 
 fn studied(
     bench: &Bench<'_>,
@@ -54,7 +54,7 @@ pub(super) fn figure_2(bench: &Bench<'_>) -> Result<Page> {
     }
     let tinted = study.look("spsm")?.tinted.as_ref().context("SPSM tells no kinds of pixels apart")?;
     let window = gallery::window(&difference(pictures[0].1, &truth.picture), pictures[0].1, 8);
-    pictures.extend([("recovered silhouettes, red", tinted), ("rays", &truth.picture)]);
+    pictures.extend([("uncertain pixels, red", tinted), ("rays", &truth.picture)]);
     let mut page = Page::default();
     page.verdict(smooth(edges[0], edges[1]));
     let captions = ["The scene.", "Enlarged: where the standard map looks most wrong."];
@@ -193,26 +193,26 @@ fn rgsm_fails([few, many]: [[Option<f64>; 2]; 2], spsm: Option<f64>) -> Verdict 
 pub(super) fn figure_14(bench: &Bench<'_>) -> Result<Page> {
     let mut table = Table::new(
         "Shares of the pixels that see geometry. The paper leaves the last two without colour.",
-        &["map", "recovered", "by 3×3 triangles", "by one", "lit, or facing away"],
+        &["map", "uncertain", "by 3×3 triangles", "by one", "lit, or facing away"],
     );
     let mut shares = Vec::new();
     let mut tiles = Vec::new();
     for map in [512, 1024, 2048] {
         let study = bench.study(bench.shot("tangle", [640, 480]), bench.map(map), &["spsm"])?;
         let look = study.look("spsm")?;
-        let recovered = look.share(RECOVERED).with_context(|| format!("SPSM has no pixels '{RECOVERED}'"))?;
+        let uncertain = look.share(UNCERTAIN).with_context(|| format!("SPSM has no pixels '{UNCERTAIN}'"))?;
         let of = |i: usize| look.classes.get(i).map(|c| c.share);
-        let others = of(0).zip(of(1)).map(|(own, around)| 1.0 - recovered - around - own);
-        let cells = [Some(recovered), of(1), of(0), others].map(|v| Cell::ours(v, Unit::Share));
+        let others = of(0).zip(of(1)).map(|(own, around)| 1.0 - uncertain - around - own);
+        let cells = [Some(uncertain), of(1), of(0), others].map(|v| Cell::ours(v, Unit::Share));
         table.row(format!("{map}²"), cells.into());
         let tinted = look.tinted.as_ref().context("SPSM tells no kinds of pixels apart")?;
-        tiles.push(Tile::new(format!("{map}²: {:.1} % recovered", 100.0 * recovered), tinted)?);
-        shares.push(recovered);
+        tiles.push(Tile::new(format!("{map}²: {:.1} % uncertain", 100.0 * uncertain), tinted)?);
+        shares.push(uncertain);
     }
     let mut page = Page::default();
     page.verdict(fewer(&shares));
     page.pictures(
-        "Red: silhouette recovered. Green: shadowed by a triangle of 3×3 texels. Blue: by the texel's own.",
+        "Red: uncertain. Green: shadowed by a triangle of 3×3 texels. Blue: by the texel's own.",
         3,
         tiles,
     );

@@ -3,9 +3,11 @@
 //!
 //! Casters are drawn conservatively, so that a texel without an occluder is certainly lit. A receiver
 //! is lit or shadowed by the triangle of its own texel or of the eight around it wherever that is
-//! certain; where its texel holds an occluder that is not known to cover it, triangles are missing, and
-//! the silhouette is recovered from the corners of those that were kept. Gaps between occluders that
-//! are narrower than a texel may close, and where many small triangles share a texel edges may fray.
+//! certain; elsewhere triangles may be missing. As published, the silhouette is then recovered from the
+//! corners of those that were kept. With a second layer, of triangles at texels' centres, the centres
+//! around decide, which are samples that nothing is missing from: what no kept triangle covers is lit
+//! unless most of what surrounds it is shadowed. Gaps between occluders and occluders that are narrower
+//! than a texel may vanish, and where many small triangles share a texel edges fray.
 //!
 //! Lecocq, Marvie, Sourimant, Gautron 2014, "Sub-Pixel Shadow Mapping".
 
@@ -42,8 +44,9 @@ impl Packing {
     }
 }
 
-/// Sub-pixel shadow map. 1 lookup where that is enough, 10 per layer else, up to 3 times as many where
-/// the silhouette has to be recovered; 16 bytes per texel and layer.
+/// Sub-pixel shadow map. 1 to 5 lookups where that is enough, up to 9 more per layer, and 9 for the texels'
+/// centres, else; with one layer up to 4 times 9 more where the silhouette has to be recovered. 16 bytes
+/// per texel and layer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Spsm {
@@ -51,16 +54,14 @@ pub struct Spsm {
     pub packing: Packing,
     /// 1 as published; 2 adds the triangle at each texel's centre.
     pub layers: u32,
-    /// With 2 layers: so many slivers in the nine texels around an uncertain receiver, 1 to 10 (never),
-    /// have it ask the texels' centres instead of their silhouette.
-    pub slivers: u32,
-    /// Positions along one side of a pixel at which silhouettes are asked, 1 to 4.
+    /// Positions along one side of a pixel at which shadows are asked, 1 to 4: those in its corners, and
+    /// where these differ all.
     pub samples: u32,
 }
 
 impl Default for Spsm {
     fn default() -> Self {
-        Self { packing: Packing::Edges, layers: 2, slivers: 6, samples: 1 }
+        Self { packing: Packing::Edges, layers: 2, samples: 1 }
     }
 }
 
@@ -88,16 +89,10 @@ impl Technique for Spsm {
                 "triangles per texel: one that touches it, as published; with 2 also the one at its centre",
             ),
             Parameter::new(
-                "slivers",
-                "texels",
-                Field::Count(&mut self.slivers, 1..=10),
-                "so many slivers in the 3×3 texels leave no silhouette: centres are asked instead, with 2 layers",
-            ),
-            Parameter::new(
                 "samples",
                 "",
                 Field::Count(&mut self.samples, 1..=4),
-                "positions along one side of a pixel at which silhouettes are asked",
+                "positions along one side of a pixel at which shadows are asked: corners, and where they differ all",
             ),
         ]
     }
@@ -122,7 +117,6 @@ impl Technique for Spsm {
     fn constants(&self) -> Vec<Constant> {
         vec![
             Constant::Count("spsm_layers", self.layers),
-            Constant::Count("spsm_slivers", self.slivers),
             Constant::Count("spsm_samples", self.samples),
         ]
     }
@@ -138,7 +132,8 @@ impl Technique for Spsm {
     fn reach_texels(&self) -> f32 {
         0.5
     }
-    /// Nine texels per layer and its own first; silhouettes take as many again for each of their steps.
+    /// Its own and nine texels per layer; the centres, or with one layer each step of the silhouette, take
+    /// nine more.
     fn lookups(&self) -> u32 {
         1 + 9 * self.layers
     }
@@ -146,7 +141,7 @@ impl Technique for Spsm {
         const CLASSES: [Class; 3] = [
             Class { name: "shadowed by its own texel's triangle", colour: [90, 110, 160] },
             Class { name: "shadowed by a triangle of 3×3 texels", colour: [40, 160, 60] },
-            Class { name: "silhouette recovered", colour: [224, 32, 32] },
+            Class { name: "uncertain", colour: [224, 32, 32] },
         ];
         &CLASSES
     }
@@ -187,6 +182,13 @@ pub mod reference {
         let weights = weights(corners, point);
         let plane: f64 = (0..3).map(|k| weights[k] * corners[k][2]).sum();
         plane < depth && weights.iter().all(|w| *w >= 0.0)
+    }
+
+    /// Quadratic B-spline: weight of a texel's centre in the mean around a point, `away` texels from it.
+    #[must_use]
+    pub fn weight(away: [f64; 2]) -> f64 {
+        let along = |x: f64| if x.abs() < 0.5 { 0.75 - x * x } else { 0.5 * (1.5 - x.abs()).max(0.0).powi(2) };
+        along(away[0]) * along(away[1])
     }
 
     /// Part of a convex polygon on the side of a line where n·x + o ≤ 0.
@@ -249,7 +251,7 @@ pub mod reference {
 
 #[cfg(test)]
 mod tests {
-    use super::reference::{quantize, dequantize, tangents};
+    use super::reference::{dequantize, quantize, tangents, weight};
 
     /// Degrees from one level to the next around a slope, with an exponent n as in Eq. 3.
     fn resolution(degrees: f64) -> f64 {
@@ -265,6 +267,15 @@ mod tests {
         for level in 1..254 {
             assert!((quantize(dequantize(f64::from(level))) - f64::from(level)).abs() < 1e-6);
         }
+    }
+
+    #[test]
+    fn weights_of_all_texels_are_one_in_sum() {
+        for at in [[0.0, 0.0], [0.3, -0.5], [-0.12, 0.49]] {
+            let texels = (0..25).map(|i| [f64::from(i % 5 - 2) - at[0], f64::from(i / 5 - 2) - at[1]]);
+            assert!((texels.map(weight).sum::<f64>() - 1.0).abs() < 1e-12);
+        }
+        assert!(weight([0.0, 0.0]) > weight([0.4, 0.0]) && weight([1.4, 0.0]) > weight([1.6, 0.0]));
     }
 
     fn directions(entry: u32) -> Vec<u32> {

@@ -1,12 +1,13 @@
 //! needs coverage packing
 
-/// Positions along one side of an uncertain pixel at which the silhouette is asked.
+/// Positions along one side of a pixel at which shadows are asked.
 const spsm_samples: u32 = 1;
 /// Triangles per texel: of those that touch it, the one whose plane is nearest to the light; and the
 /// nearest of those that cover its centre.
 const spsm_layers: u32 = 1;
-/// So many slivers in the nine texels around a receiver leave no silhouette to recover.
-const spsm_slivers: u32 = 10;
+/// With two layers, receivers that no stored triangle covers are lit where this share of the light around
+/// them is: less than half, since the triangles that were kept cover most of a shadow.
+const spsm_open: f32 = 0.28;
 
 /// Class of a receiver that its own texel shows to be lit.
 const spsm_lit: u32 = 0;
@@ -14,7 +15,8 @@ const spsm_lit: u32 = 0;
 const spsm_shadowed: u32 = 1;
 /// Class of a receiver that is behind a triangle that the texels around its own store.
 const spsm_around: u32 = 2;
-/// Class of a receiver whose texel holds a caster that is not known to cover it: the silhouette tells.
+/// Class of a receiver that may be behind a triangle which was not kept: the silhouette tells, or the
+/// centres of the texels around it.
 const spsm_uncertain: u32 = 3;
 
 /// The k-th of the eight neighbours of a texel, from the right over the one below, k < 8.
@@ -137,32 +139,20 @@ fn spsm_occludes(words: vec4u, lines: mat3x3f, receiver: vec3f, size: vec2f) -> 
     return gain.z + rise < 0.0 || spsm_least(lines, gain) < 0.0;
 }
 
-/// Whether a texel holds no triangle, or one that is less than half a texel across there: two of its
-/// edges face away from each other so closely.
-fn spsm_sliver(words: vec4u, lines: mat3x3f) -> bool {
-    return !packing_holds(words) || spsm_thin(lines[0], lines[1]) || spsm_thin(lines[1], lines[2]) || spsm_thin(lines[2], lines[0]);
-}
-
-/// Whether two edges face away from each other, less than half a texel apart.
-fn spsm_thin(a: vec3f, b: vec3f) -> bool {
-    let s = inverseSqrt(dot(a.xy, a.xy));
-    let t = inverseSqrt(dot(b.xy, b.xy));
-    return dot(a.xy, b.xy) * s * t < -0.7 && -a.z * s - b.z * t < 0.5;
-}
-
-/// Where the e-th of nine texels in each layer is: the eight around a texel, then it itself.
+/// Where the e-th of nine texels is: the eight around a texel, then it itself.
 fn spsm_step(entry: u32) -> vec2i {
-    let k = entry % 9u;
-    return select(spsm_neighbour(k), vec2i(0), k == 8u);
+    return select(spsm_neighbour(entry), vec2i(0), entry == 8u);
 }
 
-/// One of the classes above [Lecocq et al. 2014, §4.1]. Bindings and arguments as spsm_visibility.
+/// What a receiver's own texel says of it: spsm_lit or spsm_shadowed where that is certain, spsm_around
+/// where the texels around may know of a triangle in between, spsm_uncertain where also one that was not
+/// kept may be.
 ///
-/// Where a receiver's own texel shows it to be lit, a triangle that the texel does not store may still be
-/// in between: one that the other layer stores there, or one of the three texels next to the receiver.
-fn spsm_class(map: texture_2d_array<u32>, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f) -> u32 {
+/// Where the texel shows the receiver to be lit, a triangle that it does not store may still be in
+/// between: one that the other layer stores there, or one of the three texels next to the receiver.
+/// With one layer nothing else could tell of it.
+fn spsm_own(map: texture_2d_array<u32>, point: vec2f, view: u32, depth: f32, gain: vec2f) -> u32 {
     let size = vec2f(textureDimensions(map));
-    let point = uv * size;
     let texel = vec2i(floor(point));
     let centre = floor(point) + 0.5;
     let at = point - centre;
@@ -177,7 +167,6 @@ fn spsm_class(map: texture_2d_array<u32>, uv: vec2f, view: u32, depth: f32, plan
         return spsm_shadowed;
     }
     // On the stored triangle, or nothing in this texel is nearer to the light than the receiver.
-    let gain = plane / size;
     let receiver = vec3f(gain, depth - dot(gain, at));
     let lit = covered || !spsm_occludes(words, lines, receiver, size);
     let side = select(vec2i(-1), vec2i(1), at >= vec2f(0.0));
@@ -190,50 +179,71 @@ fn spsm_class(map: texture_2d_array<u32>, uv: vec2f, view: u32, depth: f32, plan
     if clear {
         return spsm_lit;
     }
-    for (var entry = 0u; entry < 9u * spsm_layers; entry += 1u) {
-        let step = spsm_step(entry);
-        let there = centre + vec2f(step);
+    return select(spsm_uncertain, spsm_around, covered || (lit && spsm_layers == 1u));
+}
+
+/// Whether a triangle that one of the nine texels around a receiver stores is between it and the light.
+fn spsm_met(map: texture_2d_array<u32>, point: vec2f, view: u32, depth: f32, size: vec2f) -> bool {
+    let texel = vec2i(floor(point));
+    var met = false;
+    for (var entry = 0u; !met && entry < 9u * spsm_layers; entry += 1u) {
+        let step = spsm_step(entry % 9u);
+        let there = vec2f(texel + step) + 0.5;
         let words = spsm_load(map, texel + step, view, entry / 9u);
         let own = entry % 9u == 8u;
-        if spsm_intersects(words, there, point, depth, size) && (own || !packing_alone(words, there, size)) {
-            return spsm_around;
-        }
+        met = spsm_intersects(words, there, point, depth, size) && (own || !packing_alone(words, there, size));
     }
-    return select(spsm_uncertain, spsm_lit, lit);
+    return met;
 }
 
-/// The nine texels around a receiver in all layers, bit e for spsm_step(e): in x those that hold an
-/// occluder, in y those that hold no triangle or a sliver. `receiver` is the receiver's plane as gain per
-/// texel and depth at the centre.
-fn spsm_casters(map: texture_2d_array<u32>, texel: vec2i, view: u32, receiver: vec3f, size: vec2f) -> vec2u {
-    var found = vec2u(0u);
-    for (var entry = 0u; entry < 9u * spsm_layers; entry += 1u) {
+/// One of the classes above [Lecocq et al. 2014, §4.1]. Bindings and arguments as spsm_visibility.
+fn spsm_class(map: texture_2d_array<u32>, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f) -> u32 {
+    let size = vec2f(textureDimensions(map));
+    let found = spsm_own(map, uv * size, view, depth, plane / size);
+    if found < spsm_around {
+        return found;
+    }
+    if spsm_met(map, uv * size, view, depth, size) {
+        return spsm_around;
+    }
+    return select(spsm_uncertain, spsm_lit, found == spsm_around);
+}
+
+/// Weight of a place in the mean around another, `away` texels from it: the quadratic B-spline, 1 in sum
+/// over all texels.
+fn spsm_weight(away: vec2f) -> f32 {
+    let far = max(1.5 - abs(away), vec2f(0.0));
+    let weight = select(0.5 * far * far, 0.75 - away * away, abs(away) < vec2f(0.5));
+    return weight.x * weight.y;
+}
+
+/// Share of the light around a point, smoothed over the nine texels around it, by their centres: what an
+/// ordinary shadow map knows.
+fn spsm_share(map: texture_2d_array<u32>, point: vec2f, view: u32, depth: f32, gain: vec2f) -> f32 {
+    let texel = vec2i(floor(point));
+    var share = 0.0;
+    for (var entry = 0u; entry < 9u; entry += 1u) {
+        let there = texel + spsm_step(entry);
+        let away = vec2f(there) + 0.5 - point;
+        let words = spsm_load(map, there, view, spsm_layers - 1u);
+        let occluded = packing_holds(words) && packing_depth(words) < depth + dot(gain, away);
+        share += select(spsm_weight(away), 0.0, occluded);
+    }
+    return share;
+}
+
+/// Those of the nine texels around a receiver that hold an occluder, bit e for spsm_step(e). `receiver` is
+/// the receiver's plane as gain per texel and depth at the centre.
+fn spsm_casters(map: texture_2d_array<u32>, texel: vec2i, view: u32, receiver: vec3f, size: vec2f) -> u32 {
+    var found = 0u;
+    for (var entry = 0u; entry < 9u; entry += 1u) {
         let step = spsm_step(entry);
-        let words = spsm_load(map, texel + step, view, entry / 9u);
+        let words = spsm_load(map, texel + step, view, 0u);
         let lines = packing_lines(words, vec2f(texel + step) + 0.5, size);
         let there = receiver + vec3f(0.0, 0.0, dot(receiver.xy, vec2f(step)));
-        let bits = vec2<bool>(spsm_occludes(words, lines, there, size), spsm_sliver(words, lines));
-        found |= select(vec2u(0u), vec2u(1u << entry), bits);
+        found |= select(0u, 1u << entry, spsm_occludes(words, lines, there, size));
     }
     return found;
-}
-
-/// Share of the four nearest texels, with bilinear weights, whose centres are lit: what an ordinary
-/// shadow map knows.
-fn spsm_ordinary(map: texture_2d_array<u32>, point: vec2f, view: u32, depth: f32, gain: vec2f, size: vec2f, texels: u32) -> f32 {
-    let corner = floor(point - 0.5);
-    let weight = point - 0.5 - corner;
-    var lit = 0.0;
-    // As many as it takes: unrolled it would burden receivers that do not need it on software drivers.
-    for (var k = 0u; k < texels; k += 1u) {
-        let step = vec2f(f32(k & 1u), f32(k >> 1u));
-        let centre = corner + step + 0.5;
-        let words = spsm_load(map, vec2i(corner + step), view, spsm_layers - 1u);
-        let occluded = packing_holds(words) && packing_depth(words) < depth + dot(gain, centre - point);
-        let share = select(1.0 - weight, weight, step > vec2f(0.5));
-        lit += select(share.x * share.y, 0.0, occluded);
-    }
-    return lit;
 }
 
 /// The silhouette on both sides of a point, from the corners whose outward normals point along `normal`,
@@ -247,7 +257,7 @@ fn spsm_silhouette(map: texture_2d_array<u32>, point: vec2f, view: u32, entries:
         let entry = firstTrailingBit(left);
         let step = spsm_step(entry);
         let there = vec2f(texel + step) + 0.5;
-        let words = spsm_load(map, texel + step, view, entry / 9u);
+        let words = spsm_load(map, texel + step, view, 0u);
         let lines = packing_lines(words, there, size);
         let alone = packing_alone(words, there, size);
         for (var c = 0u; c < 3u; c += 1u) {
@@ -269,48 +279,78 @@ fn spsm_silhouette(map: texture_2d_array<u32>, point: vec2f, view: u32, entries:
     return nearest;
 }
 
-/// Share of an uncertain receiver's samples that are lit. `ddx` and `ddy` span the pixel in texels. Along
-/// each tangent the silhouette is the line between the corners next to the receiver, found once for all
-/// samples [Lecocq et al. 2014, §5]; a sample is shadowed if it is behind all of them.
-fn spsm_recover(map: texture_2d_array<u32>, point: vec2f, view: u32, depth: f32, gain: vec2f, ddx: vec2f, ddy: vec2f) -> f32 {
+/// Whether an uncertain receiver is lit, by the silhouette [Lecocq et al. 2014, §4.2]: along each tangent
+/// the line between the corners next to the receiver, which is shadowed if it is behind all of them.
+fn spsm_recover(map: texture_2d_array<u32>, point: vec2f, view: u32, depth: f32, gain: vec2f) -> bool {
     let size = vec2f(textureDimensions(map));
     let texel = vec2i(floor(point));
     let receiver = vec3f(gain, depth + dot(gain, floor(point) + 0.5 - point));
     let casters = spsm_casters(map, texel, view, receiver, size);
-    let tangents = spsm_tangents(casters.x & 255u);
+    let tangents = spsm_tangents(casters & 255u);
     let kept = tangents & 255u | 256u;
     let count = tangents >> 8u & 7u;
-    let unresolved = spsm_layers > 1u && (count == 0u || countOneBits(casters.y & kept) >= spsm_slivers);
-    if unresolved {
-        return select(0.0, 1.0, spsm_ordinary(map, point, view, depth, gain, size, select(0u, 4u, unresolved)) >= 0.5);
-    }
-    let every = (1u << (spsm_samples * spsm_samples)) - 1u;
-    var shadowed = every;
-    for (var i = 0u; i < count; i += 1u) {
+    var lit = false;
+    for (var i = 0u; !lit && i < count; i += 1u) {
         let angle = f32(tangents >> (11u + 5u * i) & 31u) * (6.283185307179586 / 32.0);
         let normal = vec2f(cos(angle), sin(angle));
-        let nearest = spsm_silhouette(map, point, view, casters.x & (kept | kept << 9u), normal, size);
-        if nearest.x < -1e8 || nearest.z > 1e8 {
-            return 1.0;
-        }
-        for (var k = 0u; k < spsm_samples * spsm_samples; k += 1u) {
-            let at = (vec2f(f32(k % spsm_samples), f32(k / spsm_samples)) + 0.5) / f32(spsm_samples) - 0.5;
-            let sample = at.x * ddx + at.y * ddy;
-            let along = normal.x * sample.y - normal.y * sample.x;
-            let height = mix(nearest.y, nearest.w, (along - nearest.x) / (nearest.z - nearest.x));
-            shadowed &= select(every, ~(1u << k), height < dot(sample, normal));
-        }
+        let nearest = spsm_silhouette(map, point, view, casters & kept, normal, size);
+        let alone = nearest.x < -1e8 || nearest.z > 1e8;
+        let height = mix(nearest.y, nearest.w, -nearest.x / (nearest.z - nearest.x));
+        lit = alone || height < 0.0;
     }
-    return 1.0 - f32(countOneBits(shadowed)) / f32(countOneBits(every));
+    return lit;
 }
 
-/// 0 or 1 for the class where that is certain, else what the recovered silhouette says [Lecocq et al.
-/// 2014]. `depth` and `plane` are of projected depth, in which triangles are planes under any light.
+/// Whether a receiver is lit: what its class says where that is certain, else the centres around it, or
+/// with one layer the silhouette. Arguments as spsm_visibility.
+///
+/// The centres are asked first: it takes no triangle to tell that most receivers in shadow are.
+fn spsm_lights(map: texture_2d_array<u32>, uv: vec2f, view: u32, depth: f32, plane: vec2f) -> bool {
+    let size = vec2f(textureDimensions(map));
+    let point = uv * size;
+    let found = spsm_own(map, point, view, depth, plane / size);
+    if found < spsm_around {
+        return found == spsm_lit;
+    }
+    let uncertain = found == spsm_uncertain;
+    if spsm_layers > 1u && uncertain && spsm_share(map, point, view, depth, plane / size) < spsm_open {
+        return false;
+    }
+    if spsm_met(map, point, view, depth, size) {
+        return false;
+    }
+    return spsm_layers > 1u || !uncertain || spsm_recover(map, point, view, depth, plane / size);
+}
+
+/// Share of a pixel that is lit [Lecocq et al. 2014]. `depth` and `plane` are of projected depth, in which
+/// triangles are planes under any light.
+///
+/// Of several samples those in the pixel's corners come first, and the others only where these differ:
+/// unlike the silhouette alone [§5], this smooths also the edges of triangles that were kept.
 fn spsm_visibility(map: texture_2d_array<u32>, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f) -> f32 {
-    let found = spsm_class(map, uv, view, depth, plane, ddx, ddy);
-    if found != spsm_uncertain {
-        return select(0.0, 1.0, found == spsm_lit);
+    if spsm_samples == 1u {
+        return select(0.0, 1.0, spsm_lights(map, uv, view, depth, plane));
     }
     let size = vec2f(textureDimensions(map));
-    return spsm_recover(map, uv * size, view, depth, plane / size, ddx * size, ddy * size);
+    let reach = 0.5 * (abs(ddx) + abs(ddy)) * size;
+    if max(reach.x, reach.y) < 0.5 && spsm_own(map, uv * size, view, depth, plane / size) == spsm_lit {
+        return 1.0;
+    }
+    let side = spsm_samples;
+    var lit = 0u;
+    var count = 4u;
+    for (var i = 0u; i < count; i += 1u) {
+        // Rows without the corners, which have been asked.
+        var k = i - 3u;
+        k += select(0u, 1u, k >= side - 1u);
+        k += select(0u, 1u, k >= side * side - side);
+        k = select(k, (i & 1u) * (side - 1u) + (i >> 1u) * (side * side - side), i < 4u);
+        let at = (vec2f(f32(k % side), f32(k / side)) + 0.5) / f32(side) - 0.5;
+        let step = at.x * ddx + at.y * ddy;
+        lit += select(0u, 1u, spsm_lights(map, uv + step, view, depth + dot(plane, step), plane));
+        if i == 3u && lit % 4u != 0u {
+            count = side * side;
+        }
+    }
+    return f32(lit) / f32(count);
 }

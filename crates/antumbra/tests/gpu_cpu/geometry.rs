@@ -233,6 +233,17 @@ pub(crate) fn spsm_tangents(gpu: &Gpu) {
     compare(&rows, &found, entry(1)).unwrap_err();
 }
 
+/// Quadratic B-spline, on places up to two texels away.
+pub(crate) fn spsm_weighs_centres(gpu: &Gpu) {
+    let rows = rows(31, |r| row([r.range(-2.0, 2.0), r.range(-2.0, 2.0)]));
+    let found =
+        run::<1>(gpu, &functions(gpu, spsm::Packing::Edges), "put(0u, spsm_weight(take2(0u)));", &rows);
+    let weight =
+        |scale: f64| move |r: &[f64; INPUTS]| ([spsm::reference::weight([scale * r[0], r[1]])], 1e-6);
+    compare(&rows, &found, weight(1.0)).unwrap();
+    compare(&rows, &found, weight(0.99)).unwrap_err();
+}
+
 /// Whether a triangle overlaps the square of half side `half` around a centre: separating axes.
 pub(crate) fn overlaps(triangle: &[DVec2; 3], centre: DVec2, half: f64) -> bool {
     let beside = |axis: DVec2, reach: f64| {

@@ -180,12 +180,14 @@ fn main() {
     trials.add("rgsm meets stored triangles", geometry::rgsm_meets_stored_triangles);
     trials.add("spsm finds consistent least depths", geometry::spsm_finds_least_depths);
     trials.add("spsm's table of tangents", geometry::spsm_tangents);
+    trials.add("spsm weighs centres", geometry::spsm_weighs_centres);
     trials.add("every touched texel is drawn", geometry::every_touched_texel_is_drawn);
     trials.add("lists hold all triangles", lists::lists_hold_all_triangles);
     trials.add("lists without room are cut", lists::lists_without_room_are_cut);
     trials.add("lists tell their memory", lists::lists_tell_their_memory);
     trials.add("exact intersects", lists::exact_intersects);
     trials.add("silhouettes of fine meshes are recovered", silhouettes::fine_meshes);
+    trials.add("edges of large triangles are smooth", silhouettes::edges_are_smooth);
     trials.add("holes of cut-outs stay open", silhouettes::holes_stay_open);
     trials.add("triangles that reach behind a spot are cut", geometry::triangles_behind_a_spot_are_cut);
     trials.run();
