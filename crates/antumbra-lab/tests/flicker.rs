@@ -19,8 +19,8 @@ fn main() {
         let both = request("contact", Path::Both, &["hard", "spsm"]);
         let results = run(gpu, &Request { resolution: [240, 180], frames: 9, until: 9, ..both });
         let ratio = of(&results, "spsm").ratio_to_hard.unwrap();
-        // Measured: 0.027.
-        assert!(ratio < 0.05, "{ratio}");
+        // Measured: 0.093. Centres, which tell where no kept triangle does, round the corners of polygons.
+        assert!(ratio < 0.15, "{ratio}");
         assert_eq!(of(&results, "hard").ratio_to_hard, Some(1.0));
     });
     trials.add("a_lookup_that_depends_on_where_the_map_is_flickers_more", |gpu| {

@@ -247,7 +247,7 @@ fn broken() -> Vec<(&'static str, usize, Broken)> {
         ("a tap dropped", FENCE, Broken::saying("stratified", "k < COUNT", "k + 1u < COUNT")),
         (
             "no half texel towards the four texels' corner",
-            LAYERS,
+            CONTACT,
             Broken::saying("packed", "vec2f(0.5, -0.5)", "vec2f(0.0, 0.0)"),
         ),
         ("a shallow decay", CONTACT, Broken::new("esm.c=20,kernel=5")),
