@@ -6,7 +6,7 @@ use crate::{
     study::{Look, Study, Truth},
     target::{Source, Target},
 };
-use antumbra::{Exact, technique};
+use antumbra::{Dpm, Exact, technique};
 use antumbra_lab::{compare, metrics::Score, motion::Path, results::TimeResult};
 use antumbra_scene::procedural;
 use anyhow::{Context, Result};
@@ -152,23 +152,28 @@ fn run(bench: &Bench<'_>) -> Result<Page> {
     Ok(page)
 }
 
-/// The technique that keeps all triangles.
-const LISTS: &str = "exact";
+/// The techniques that keep triangles by number.
+const NUMBERING: [&str; 2] = ["dpm", "exact"];
 
-/// A spec whose lists hold all triangles of a scene with so many.
+/// A spec that has room for all triangles of a scene with so many.
 fn with_room(spec: &str, triangles: usize) -> String {
-    let usual = Exact::default();
-    if spec != LISTS || triangles <= usual.triangles as usize {
-        return spec.into();
+    let (few, many) = (Dpm::default(), Exact::default());
+    // Numbers of procedural scenes are rounded.
+    let room = (triangles + triangles / 8) as u32;
+    match spec {
+        "dpm" if triangles > few.triangles as usize => technique::spec(&Dpm { triangles: room, ..few }),
+        // The smallest maps here hold 40 triangles of `city` per texel.
+        "exact" if triangles > many.triangles as usize => {
+            technique::spec(&Exact { per_texel: 8 * many.per_texel, triangles: room })
+        }
+        _ => spec.into(),
     }
-    // Numbers of procedural scenes are rounded; the smallest maps here hold 40 triangles of `city` per texel.
-    let room = Exact { per_texel: 8 * usual.per_texel, triangles: (triangles + triangles / 8) as u32 };
-    technique::spec(&room)
 }
 
 /// A spec without room for one scene, as in the rows of others.
 fn plain(spec: &str) -> &str {
-    if spec.split('.').next() == Some(LISTS) { LISTS } else { spec }
+    let name = spec.split('.').next().unwrap_or(spec);
+    if NUMBERING.contains(&name) { name } else { spec }
 }
 
 fn scene_values(bench: &Bench<'_>, study: &Study, specs: &[&str]) -> Result<Vec<Vec<Option<f64>>>> {
@@ -258,9 +263,10 @@ mod tests {
     }
 
     #[test]
-    fn lists_have_room_for_large_scenes() {
+    fn large_scenes_get_room() {
         assert_eq!(with_room("exact", 1000), "exact");
         assert_eq!(with_room("spsm", 2_300_000), "spsm");
+        assert_eq!(with_room("dpm", 2_300_000), "dpm.triangles=2587500");
         let roomy = with_room("exact", 2_300_000);
         assert!(roomy.contains("triangles=2587500") && technique::parse(&roomy).is_ok(), "{roomy}");
         assert_eq!([plain(&roomy), plain("csm.terms=4")], ["exact", "csm.terms=4"]);

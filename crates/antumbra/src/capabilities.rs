@@ -19,6 +19,7 @@ impl Capabilities {
         .union(Features::DEPTH_CLIP_CONTROL)
         .union(Features::PRIMITIVE_INDEX)
         .union(Features::CONSERVATIVE_RASTERIZATION)
+        .union(Features::VERTEX_WRITABLE_STORAGE)
         .union(Features::TEXTURE_FORMAT_16BIT_NORM)
         .union(Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES);
 
@@ -66,6 +67,12 @@ impl Capabilities {
     #[must_use]
     pub fn rasterises_conservatively(&self) -> bool {
         self.numbers_triangles() && self.features.contains(Features::CONSERVATIVE_RASTERIZATION)
+    }
+
+    /// Whether vertices can leave what all fragments of a triangle share.
+    #[must_use]
+    pub fn stores_from_vertices(&self) -> bool {
+        self.features.contains(Features::VERTEX_WRITABLE_STORAGE)
     }
 
     /// Whether casters in front of the near plane can be kept by depth clamping.

@@ -135,7 +135,7 @@ pub use precision::Precision;
 pub use shader::{CASTER_WGSL, ShaderText};
 pub use table::Table;
 pub use technique::{
-    Technique, bicubic::Bicubic, csm::Csm, esm::Esm, evsm::Evsm, exact::Exact, footprint::Footprint,
-    hard::Hard, lvsm::Lvsm, msm::Msm, packed::Packed, pcf::Pcf, poisson::Poisson, rgsm::Rgsm, spsm::Spsm,
-    stratified::Stratified, vsm::Vsm,
+    Technique, bicubic::Bicubic, csm::Csm, dpm::Dpm, esm::Esm, evsm::Evsm, exact::Exact,
+    footprint::Footprint, hard::Hard, lvsm::Lvsm, msm::Msm, packed::Packed, pcf::Pcf, poisson::Poisson,
+    rgsm::Rgsm, spsm::Spsm, stratified::Stratified, vsm::Vsm,
 };

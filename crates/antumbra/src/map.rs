@@ -9,14 +9,17 @@ use crate::{
     technique::{self, Bias, Binding, Caster, Technique},
 };
 use glam::Vec2;
+use std::sync::atomic::{AtomicU32, Ordering};
 use wgpu::{RenderPass, TextureFormat};
 
 mod caster;
 mod check;
+mod create;
 mod draw;
 mod explain;
 mod lists;
 mod memory;
+mod nearest;
 mod pipelines;
 mod receiver;
 mod textures;
@@ -27,6 +30,7 @@ use caster::TriangleCaster;
 use draw::Draw;
 use lists::{Lists, Room};
 pub use memory::{Lifetime, Memory, MemoryItem};
+use nearest::{NearestRoom, NearestTriangles};
 pub use pipelines::Pipelines;
 use textures::Textures;
 use uniforms::Uniforms;
@@ -116,6 +120,10 @@ pub struct ShadowMap {
     triangles: Option<TriangleCaster>,
     /// For those that keep all of them.
     lists: Option<Lists>,
+    /// For those that keep the nearest.
+    nearest: Option<NearestTriangles>,
+    /// Triangles that they were given.
+    drawn: AtomicU32,
     layout: wgpu::BindGroupLayout,
     bind_group: wgpu::BindGroup,
     views: Vec<View>,
@@ -185,6 +193,14 @@ impl ShadowMap {
             }
             _ => None,
         };
+        let nearest = match technique.caster() {
+            Caster::Nearest { keeps, triangles } => {
+                let room = NearestRoom { size: options.size, views: options.views, keeps, triangles };
+                check::nearest(device, technique, room)?;
+                Some(NearestTriangles::new(device, technique, room, &pipelines))
+            }
+            _ => None,
+        };
         let compares = technique.bindings().contains(&Binding::Depth);
         let jitter = technique.jitter();
         let casting = (compares, jitter.len() as u32);
@@ -200,8 +216,15 @@ impl ShadowMap {
                     .collect()
             })
             .collect();
-        let (layout, bind_group) =
-            receiver::group(device, technique, &capabilities, &textures, &uniforms, lists.as_ref());
+        let (layout, bind_group) = receiver::group(
+            device,
+            technique,
+            &capabilities,
+            &textures,
+            &uniforms,
+            lists.as_ref(),
+            nearest.as_ref(),
+        );
         Ok(Self {
             technique: technique.boxed(),
             capabilities,
@@ -212,6 +235,8 @@ impl ShadowMap {
             draws,
             triangles,
             lists,
+            nearest,
+            drawn: AtomicU32::new(0),
             layout,
             bind_group,
             views: Vec::with_capacity(options.views as usize),
@@ -242,6 +267,9 @@ impl ShadowMap {
         if let Some(lists) = &self.lists {
             lists.write(queue, views);
         }
+        if let Some(nearest) = &self.nearest {
+            nearest.write(queue, views);
+        }
         Ok(())
     }
 
@@ -264,10 +292,18 @@ impl ShadowMap {
         mut draw: impl FnMut(&View, &mut RenderPass<'_>),
     ) {
         let last = self.jitter.len() - 1;
+        self.drawn.store(0, Ordering::Relaxed);
         for view in 0..self.views.len() {
             if let Some(lists) = &self.lists {
                 let (depth, seen) = (self.textures.caster_target(view, 0), &self.views[view]);
                 lists.encode(encoder, (view, seen), depth, probe, &mut draw);
+                self.drawn.fetch_max(caster::numbered(), Ordering::Relaxed);
+                continue;
+            }
+            if let Some(nearest) = &self.nearest {
+                let (depth, seen) = (self.textures.caster_target(view, 0), &self.views[view]);
+                nearest.encode(encoder, (view, seen), depth, probe, &mut draw);
+                self.drawn.fetch_max(caster::numbered(), Ordering::Relaxed);
                 continue;
             }
             for cast in 0..=last {
@@ -339,7 +375,9 @@ impl ShadowMap {
     ) -> Option<wgpu::RenderPipeline> {
         let technique = self.technique.as_ref();
         let triangles = self.triangles.as_ref().map(|t| t.cutout(device, technique, wgsl, layouts));
-        triangles.or_else(|| self.lists.as_ref().map(|l| l.cutout(device, technique, wgsl, layouts)))
+        triangles
+            .or_else(|| self.lists.as_ref().map(|l| l.cutout(device, technique, wgsl, layouts)))
+            .or_else(|| self.nearest.as_ref().map(|l| l.cutout(device, technique, wgsl, layouts)))
     }
 
     /// A pipeline to return to after that one, in the closure of [`encode`](Self::encode). Slower than the
@@ -348,16 +386,24 @@ impl ShadowMap {
     #[must_use]
     pub fn triangle_caster(&self, view: &View) -> Option<&wgpu::RenderPipeline> {
         let lists = self.lists.as_ref().map(|l| l.pipeline(view));
-        self.triangles.as_ref().map(TriangleCaster::general).or(lists)
+        let nearest = self.nearest.as_ref().map(|n| n.pipeline(view));
+        self.triangles.as_ref().map(TriangleCaster::general).or(lists).or(nearest)
     }
 
-    /// Four `u32` per view, usage `COPY_SRC`, for techniques whose caster is [`Caster::Lists`]: entries
+    /// Two `u32` per view, usage `COPY_SRC`, for techniques whose caster is [`Caster::Lists`]: entries
     /// that the casters of the last [`encode`](Self::encode) needed, of `width · height · per_texel`
-    /// that there is room for; length of the longest list; number of the casters' triangles if it is
-    /// more than `triangles`, else 0; 0.
+    /// that there is room for; length of the longest list.
     #[must_use]
     pub fn list_totals(&self) -> Option<&wgpu::Buffer> {
         self.lists.as_ref().map(Lists::totals)
+    }
+
+    /// Triangles that the last [`encode`](Self::encode) drew in the view with most, those that a spot
+    /// cuts twice, for techniques whose caster is [`Caster::Lists`] or [`Caster::Nearest`]: what is beyond
+    /// their `triangles` casts no shadow. Else 0.
+    #[must_use]
+    pub fn triangles_drawn(&self) -> u32 {
+        self.drawn.load(Ordering::Relaxed)
     }
 
     fn encode_view_filter(
@@ -439,12 +485,15 @@ impl ShadowMap {
         let mut memory = self.textures.memory(&self.uniforms);
         memory.items.extend(self.triangles.as_ref().map(TriangleCaster::memory));
         memory.items.extend(self.lists.iter().flat_map(Lists::memory));
+        memory.items.extend(self.nearest.iter().flat_map(NearestTriangles::memory));
         memory
     }
 
     /// Which formats and paths were chosen on this device, one sentence each.
     #[must_use]
     pub fn explain(&self) -> Vec<String> {
-        explain::lines(self.technique.as_ref(), &self.capabilities, &self.textures, self.lists.as_ref())
+        let triangles = self.lists.as_ref().map(Lists::explain);
+        let triangles = triangles.or_else(|| self.nearest.as_ref().map(NearestTriangles::explain));
+        explain::lines(self.technique.as_ref(), &self.capabilities, &self.textures, triangles)
     }
 }

@@ -7,7 +7,7 @@
 
 use crate::{
     capabilities::Capabilities,
-    technique::{Binding, Caster, Constant, Coverage, DepthSpace, Family, List, Map, Technique},
+    technique::{Binding, Caster, Constant, Coverage, DepthSpace, Family, List, Map, Nearest, Technique},
 };
 use std::fmt::Write;
 
@@ -16,6 +16,7 @@ const FILES: &[(&str, &str)] = &[
     ("caster", include_str!("shader/caster.wgsl")),
     ("chebyshev", include_str!("shader/chebyshev.wgsl")),
     ("coverage", include_str!("shader/coverage.wgsl")),
+    ("key", include_str!("shader/key.wgsl")),
     ("level_hardware", include_str!("shader/level/hardware.wgsl")),
     ("level_logarithmic", include_str!("shader/level/logarithmic.wgsl")),
     ("level_manual", include_str!("shader/level/manual.wgsl")),
@@ -30,11 +31,14 @@ const FILES: &[(&str, &str)] = &[
     ("points_texel", include_str!("shader/points/texel.wgsl")),
     ("quantizer", include_str!("shader/quantizer.wgsl")),
     ("raster", include_str!("shader/raster.wgsl")),
+    ("ray", include_str!("shader/ray.wgsl")),
     ("receiver", include_str!("shader/receiver.wgsl")),
     ("reference_exact", include_str!("shader/reference/exact.wgsl")),
     ("reference_stepped", include_str!("shader/reference/stepped.wgsl")),
+    ("samples", include_str!("shader/samples.wgsl")),
     ("spin_fixed", include_str!("shader/spin/fixed.wgsl")),
     ("spin_noise", include_str!("shader/spin/noise.wgsl")),
+    ("spline", include_str!("shader/spline.wgsl")),
     ("taps_bilinear", include_str!("shader/taps/bilinear.wgsl")),
     ("taps_gather", include_str!("shader/taps/gather.wgsl")),
     ("taps_merged", include_str!("shader/taps/merged.wgsl")),
@@ -104,8 +108,7 @@ impl ShaderText {
         shader
     }
 
-    /// For tests: a file's text with all that it needs.
-    #[cfg(test)]
+    /// A file's text with all that it needs.
     fn file(stem: &str, parts: &[&str]) -> Self {
         let mut shader = Self { pieces: Vec::new() };
         shader.need(stem, parts);
@@ -185,6 +188,16 @@ fn wgsl_type(binding: Binding, maps: &[Map]) -> &'static str {
         Binding::Map(_) | Binding::List(List::Corners) => "texture_2d_array<f32>",
         Binding::List(List::Ranges | List::Numbers) => "texture_2d_array<u32>",
         Binding::Sampler => "sampler",
+        Binding::Nearest(Nearest::Keys) => "array<u32>",
+        Binding::Nearest(Nearest::Corners) => "array<vec4f>",
+    }
+}
+
+/// The function that reads a buffer, which WGSL cannot pass on, and its result.
+fn accessor(nearest: Nearest) -> (&'static str, &'static str) {
+    match nearest {
+        Nearest::Keys => ("shadow_key", "u32"),
+        Nearest::Corners => ("shadow_corner", "vec3f"),
     }
 }
 
@@ -211,6 +224,18 @@ pub(crate) fn receiver(
     let mut arguments = String::new();
     let maps = technique.maps(device).unwrap_or_default();
     for (i, binding) in technique.bindings().into_iter().enumerate() {
+        if let Binding::Nearest(nearest) = binding {
+            let (function, result) = accessor(nearest);
+            let xyz = if nearest == Nearest::Corners { ".xyz" } else { "" };
+            let _ = writeln!(
+                glue,
+                "@group({group}) @binding({}) var<storage, read> shadow_binding_{i}: {};\n\
+                 fn {function}(i: u32) -> {result} {{ return shadow_binding_{i}[i]{xyz}; }}",
+                i + 1,
+                wgsl_type(binding, &maps)
+            );
+            continue;
+        }
         let _ = writeln!(
             glue,
             "@group({group}) @binding({}) var shadow_binding_{i}: {};",
@@ -291,20 +316,28 @@ pub(crate) fn triangles(
     cutout: Option<&str>,
     pass: TrianglePass,
 ) -> String {
-    let mut shader = ShaderText::library(technique, device);
+    let mut shader = match technique.caster() {
+        // Nothing that it looks up is bound here.
+        Caster::Nearest { .. } => ShaderText::file("key", &[]),
+        _ => ShaderText::library(technique, device),
+    };
     shader.need("coverage", &[]);
     let text = shader.text();
     let indexed = matches!(pass, TrianglePass::Indexed(_));
     let entry = match technique.caster() {
         Caster::Lists { .. } => [include_str!("shader/lists.wgsl.in"), ""],
+        Caster::Nearest { .. } => [include_str!("shader/nearest.wgsl.in"), ""],
         _ if indexed => [TRIANGLES, include_str!("shader/triangles/indexed.wgsl.in")],
         Caster::Depth | Caster::Triangles(_) => [TRIANGLES, include_str!("shader/triangles/pulled.wgsl.in")],
     };
     // Least depths are planes, which corners tell unless vertices are shared or depth may not be unclamped.
     let own_depth = !device.clamps_depth() || pass == TrianglePass::Indexed(Coverage::Touched);
     let alone = if cutout.is_some() { "true" } else { "false" };
+    let by_vertices = device.stores_from_vertices();
     let left_out = |line: &&str| {
-        cutout.is_none() && line.contains("// cut-outs") || !own_depth && line.contains("// own depth")
+        line.contains(if by_vertices { "// by fragments" } else { "// by vertices" })
+            || cutout.is_none() && line.contains("// cut-outs")
+            || !own_depth && line.contains("// own depth")
     };
     let glue = MESH.lines().chain(entry.into_iter().flat_map(str::lines)).filter(|line| !left_out(line));
     let reach = |coverage| if coverage == Coverage::Touched { "0.5" } else { "0.0" };

@@ -79,6 +79,36 @@ pub enum Caster {
         /// Triangles of one view that there is room for; those that a spot cuts count twice.
         triangles: u32,
     },
+    /// Some of the triangles that touch each texel, drawn once from
+    /// [`CasterMesh`](crate::CasterMesh)es by the library's pipelines: [`Binding::Nearest`]. They are those
+    /// that show their far side to the light, and then those that show the near one, from the light on.
+    /// Beside them the depth of the texels' centres ([`Binding::Depth`]).
+    Nearest {
+        /// Triangles per texel.
+        keeps: u32,
+        /// Triangles of one view that there is room for; those that a spot cuts count twice.
+        triangles: u32,
+    },
+}
+
+/// A buffer that [`Caster::Nearest`] leaves. The technique's WGSL reads it through a function.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Nearest {
+    /// `shadow_key(i: u32) -> u32`: of each texel the keys of its triangles, as in `key.wgsl`, the
+    /// greatest first, 0 where there are fewer. Those of texel (x, y) begin at `keeps` · ((view ·
+    /// height + y) · width + x).
+    Keys,
+    /// `shadow_corner(i: u32) -> vec3f`: corner c of triangle n at 3 · (view · `triangles` + n) + c: x
+    /// and y in texels of the map, y down, z the depth as rasterised.
+    Corners,
+}
+
+impl Nearest {
+    /// Bits of the numbers of that many triangles in keys.
+    #[must_use]
+    pub fn number_bits(triangles: u32) -> u32 {
+        triangles.clamp(2, 1 << 30).next_power_of_two().ilog2()
+    }
 }
 
 /// A texture that [`Caster::Lists`] leaves.
@@ -172,6 +202,8 @@ pub enum Binding {
     Map(usize),
     /// A texture of the lists of [`Caster::Lists`].
     List(List),
+    /// A buffer of [`Caster::Nearest`]; no parameter.
+    Nearest(Nearest),
     /// `sampler` for the maps: clamped, linear where the device can filter them.
     Sampler,
 }
@@ -397,5 +429,6 @@ techniques! {
     lvsm::Lvsm,
     rgsm::Rgsm,
     spsm::Spsm,
+    dpm::Dpm,
     exact::Exact,
 }

@@ -6,7 +6,7 @@
 mod common;
 
 use antumbra::{
-    Capabilities, Csm, Esm, Evsm, Exact, Filter, Hard, LightError, NoProbe, Options, Pcf, Pipelines,
+    Capabilities, Csm, Dpm, Esm, Evsm, Exact, Filter, Hard, LightError, NoProbe, Options, Pcf, Pipelines,
     Sampling, SettingError, ShadowMap, Size, Technique, Unsupported, Vsm, technique,
     technique::{BiasTerms, evsm},
 };
@@ -204,6 +204,7 @@ fn depth_formats_are_taken(gpu: &Gpu) {
 fn lists(gpu: &Gpu) {
     let exact = |per_texel, triangles| Exact { per_texel, triangles };
     says(&refusal(gpu, &exact(0, 1), SIZE), &["exact.per_texel", "0", "1 to 64"]);
+    says(&refusal(gpu, &Dpm { keeps: 33, ..Dpm::default() }, SIZE), &["dpm.keeps", "33", "1 to 32"]);
     says(&refusal(gpu, &exact(1, 0), SIZE), &["exact.triangles", "0", "1 to 16777216"]);
     let error =
         ShadowMap::from_depth(&gpu.device, &Exact::default(), &texture(gpu, |_| ()), SIZE).unwrap_err();
@@ -219,6 +220,13 @@ fn lists(gpu: &Gpu) {
     lesser.checked(|gpu| {
         let message = refusal(gpu, &exact(1, 1), Size::square(17));
         says(&message, &["exact", "1156 bytes", "1024", "at most 256 texels"]);
+        let dpm = |keeps, triangles| Dpm { keeps, triangles, ..Dpm::default() };
+        let message = refusal(gpu, &dpm(4, 1), Size::square(17));
+        says(&message, &["dpm", "4624 bytes", "1024", "at most 64 texels"]);
+        let message = refusal(gpu, &dpm(4, 1), Size::square(9));
+        says(&message, &["dpm", "1296 bytes", "at most 3 triangles per texel, or 64 texels"]);
+        let message = refusal(gpu, &dpm(1, 22), Size::square(4));
+        says(&message, &["dpm", "1056 bytes", "corners", "at most 21 triangles"]);
         let message = refusal(gpu, &exact(1, 2048 * 2048 + 1), SIZE);
         says(&message, &["exact", "4194305 triangles", "2049 rows", "at most 4194304 triangles"]);
     });

@@ -421,9 +421,9 @@ fn rgsm_resolves_edges_of_large_triangles(gpu: &Gpu) {
     assert!(centres > 4 * three, "{centres}");
 }
 
-/// However small the map and the triangles.
-fn exact_resolves_everything(gpu: &Gpu) {
-    let fan: Vec<[(f32, f32); 3]> = (0..60)
+/// Sixty slivers around a point.
+fn fan() -> Vec<[(f32, f32); 3]> {
+    (0..60)
         .map(|k| {
             let turn = |k: i32| {
                 let (sine, cosine) = (k as f32 * std::f32::consts::TAU / 60.0).sin_cos();
@@ -431,7 +431,21 @@ fn exact_resolves_everything(gpu: &Gpu) {
             };
             [(0.52, 0.49), turn(k), turn(k + 1)]
         })
-        .collect();
+        .collect()
+}
+
+/// Elsewhere centres of texels hold the edge to a fraction of a texel.
+fn dpm_resolves_what_has_room(gpu: &Gpu) {
+    let wrong = |spec: &str, triangles: &[[(f32, f32); 3]]| wrong_behind(gpu, spec, triangles);
+    let (few, roomy) = (wrong("dpm", &SLANTED), wrong("dpm.keeps=32", &fan()));
+    assert!(few <= 1 && roomy <= 1, "{few} behind {}, {roomy} behind a fan", SLANTED.len());
+    let (full, cut) = (wrong("dpm.keeps=2", &fan()), wrong("dpm.triangles=1", &fan()));
+    assert!(full < 120 && cut > 5 * full.max(10), "{full} of full texels, {cut} with room for one triangle");
+}
+
+/// However small the map and the triangles.
+fn exact_resolves_everything(gpu: &Gpu) {
+    let fan = fan();
     for triangles in [&SLANTED[..], &fan] {
         let wrong = wrong_behind(gpu, "exact.per_texel=64", triangles);
         assert!(wrong <= 1, "{wrong} behind {} triangles", triangles.len());
@@ -457,6 +471,7 @@ fn main() {
         ("evsm", "bleeds less than vsm", evsm_bleeds_less_than_vsm),
         ("msm", "bleeds less than vsm", msm_bleeds_less_than_vsm),
         ("lvsm", "bleeds less than vsm", lvsm_bleeds_less_than_vsm),
+        ("dpm", "everything where texels have room", dpm_resolves_what_has_room),
         ("exact", "everything", exact_resolves_everything),
         ("rgsm", "edges of large triangles", rgsm_resolves_edges_of_large_triangles),
         ("spsm", "edges finer than texels", spsm_resolves_edges_below_a_texel),

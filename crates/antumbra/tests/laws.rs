@@ -48,7 +48,9 @@ fn specs() -> Vec<String> {
         more("slope_of", "slope_of=caster");
         more("sampling", "sampling=nearest,kernel=1");
         more("layers", "packing=map,layers=1");
-        more("samples", "packing=texel,samples=2");
+        more("layers", "packing=texel,samples=2");
+        more("keeps", "keeps=1,samples=2");
+        more("keeps", "keeps=9");
         more("neighbours", "packing=map,neighbours=5");
         more("neighbours", "packing=texel,neighbours=1");
         more("moments", "moments=two");
@@ -145,7 +147,7 @@ fn darkens_with_depth(gpu: &Gpu, technique: &dyn Technique) -> Result<(), String
     // Silhouettes of triangles that are not kept are guesses, which differ with what is in front.
     let centred = |r: Receiver| match technique.caster() {
         Caster::Depth => r,
-        Caster::Lists { .. } => r,
+        Caster::Lists { .. } | Caster::Nearest { .. } => r,
         Caster::Triangles(_) => Receiver { uv: ((r.uv * 64.0).floor() + 0.5) / 64.0, ..r },
     };
     let deeper = |r: Receiver| (0..STEPS).map(move |i| Receiver { depth: i as f32 / STEPS as f32, ..r });
@@ -510,6 +512,12 @@ fn broken() -> Vec<(&'static str, Law, Broken)> {
             "lists with room for a third of the triangles",
             is_dark_behind_a_blocker,
             Broken::new("exact.per_texel=1"),
+        ),
+        ("room for one triangle", is_dark_behind_a_blocker, Broken::new("dpm.triangles=1")),
+        (
+            "the first view's triangles",
+            views_do_not_matter,
+            Broken::saying("dpm", "view * dpm_triangles", "0u * dpm_triangles"),
         ),
         ("room for one triangle", is_dark_behind_a_blocker, Broken::new("exact.triangles=1")),
         ("corners of the first view", views_do_not_matter, Broken::saying("exact", "3u * view + k", "k")),

@@ -44,8 +44,9 @@ pub(super) fn technique(shadows: &ShadowMap, rendered: Rendered, time: TimeResul
 
 /// What the library says of itself, and how much its lists held.
 fn explain(shadows: &ShadowMap, room: Option<&Room>) -> Vec<String> {
-    let held = room.map(|r| {
-        format!("lists held {} triangles, {:.2} per texel, at most {}", r.entries, r.mean(), r.longest)
+    let held = room.and_then(|room| room.lists.as_ref()).map(|lists| {
+        let (mean, longest) = (lists.mean(), lists.longest);
+        format!("lists held {} triangles, {mean:.2} per texel, at most {longest}", lists.entries)
     });
     shadows.explain().into_iter().chain(held).collect()
 }

@@ -173,6 +173,11 @@ pub(super) fn number_anew() {
     NEXT_NUMBER.set(0);
 }
 
+/// Numbers given since.
+pub(super) fn numbered() -> u32 {
+    NEXT_NUMBER.get()
+}
+
 /// What is added to those indices, so that no triangle before has the same number.
 fn number(indices: Range<u32>) -> u32 {
     let first = NEXT_NUMBER.get().max(indices.start) - indices.start;

@@ -3,6 +3,7 @@
 use super::{
     Options,
     lists::{ROW, Room},
+    nearest::NearestRoom,
     uniforms,
 };
 use crate::{
@@ -65,11 +66,11 @@ pub(super) fn caster(
     let name = technique.page().name.to_string();
     match (technique.caster(), depth, maps) {
         (Caster::Depth, ..) => Ok(()),
-        (Caster::Triangles(_) | Caster::Lists { .. }, Some(_), _) => {
+        (Caster::Triangles(_) | Caster::Lists { .. } | Caster::Nearest { .. }, Some(_), _) => {
             Err(Unsupported::Triangles { technique: name })
         }
-        (Caster::Lists { .. }, None, _) if technique.jitter().len() == 1 => Ok(()),
-        (Caster::Lists { .. }, None, _) => Err(Unsupported::Feature {
+        (Caster::Lists { .. } | Caster::Nearest { .. }, None, _) if technique.jitter().len() == 1 => Ok(()),
+        (Caster::Lists { .. } | Caster::Nearest { .. }, None, _) => Err(Unsupported::Feature {
             technique: name,
             what: "a single caster pass".into(),
             instead: "describe no more in Technique::jitter".into(),
@@ -113,6 +114,31 @@ pub(super) fn lists(device: &wgpu::Device, technique: &dyn Technique, room: Room
             room.rows()
         );
         return refused(what, format!("take at most {} triangles", max * ROW));
+    }
+    Ok(())
+}
+
+/// Whether the nearest triangles fit.
+pub(super) fn nearest(
+    device: &wgpu::Device,
+    technique: &dyn Technique,
+    room: NearestRoom,
+) -> Result<(), Unsupported> {
+    let max = device.limits().max_storage_buffer_binding_size;
+    let refused = |bytes: u64, of: &str, instead: String| {
+        let what = format!("a storage binding of {bytes} bytes for {of} ({max} are possible)");
+        Err(Unsupported::Feature { technique: technique.page().name.into(), what, instead })
+    };
+    let (keys, corners) = (room.key_bytes(), room.corner_bytes());
+    if keys > max {
+        let texels = max / (4 * u64::from(room.views) * u64::from(room.keeps));
+        let keeps = max / (keys / u64::from(room.keeps));
+        let fewer = if keeps > 0 { format!("{keeps} triangles per texel, or ") } else { String::new() };
+        return refused(keys, "the triangles of texels", format!("take at most {fewer}{texels} texels"));
+    }
+    if corners > max {
+        let most = max / (corners / u64::from(room.triangles));
+        return refused(corners, "corners of triangles", format!("take at most {most} triangles"));
     }
     Ok(())
 }

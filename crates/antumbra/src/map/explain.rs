@@ -1,14 +1,14 @@
 //! What was chosen on a device, in words.
 
-use super::{lists::Lists, textures::Textures};
+use super::textures::Textures;
 use crate::{capabilities::Capabilities, technique::Technique};
 
-/// Formats and paths, one sentence each.
+/// Formats and paths, one sentence each; `triangles` is the one about kept triangles, if any.
 pub(super) fn lines(
     technique: &dyn Technique,
     capabilities: &Capabilities,
     textures: &Textures,
-    lists: Option<&Lists>,
+    triangles: Option<String>,
 ) -> Vec<String> {
     let mut lines = Vec::new();
     if !capabilities.clamps_depth() {
@@ -18,7 +18,7 @@ pub(super) fn lines(
         );
     }
     lines.extend(technique.fallbacks(capabilities));
-    lines.extend(lists.map(Lists::explain));
+    lines.extend(triangles);
     let parts = technique.parts(capabilities);
     for (i, map) in textures.maps().iter().enumerate() {
         let format = map.texture.format();

@@ -4,8 +4,9 @@
 //! [`Caster::Lists`]: crate::technique::Caster::Lists
 
 use super::{
-    DEPTH_FORMAT, Probe,
+    Probe,
     caster::{self, CasterView, VIEW_BYTES},
+    create::{self, ATOMIC, UNIFORM},
     draw,
     memory::{Lifetime, MemoryItem},
     pipelines::Pipelines,
@@ -18,8 +19,8 @@ use crate::{
 };
 use std::num::NonZeroU64;
 use wgpu::{
-    BindGroup, BindGroupEntry, BindGroupLayout, BindGroupLayoutEntry, BindingType, Buffer, BufferUsages,
-    ComputePipeline, RenderPass, RenderPipeline, ShaderStages, Texture, TextureFormat, TextureView,
+    BindGroup, BindGroupLayout, BindingType, Buffer, BufferUsages, CompareFunction, ComputePipeline,
+    RenderPass, RenderPipeline, ShaderStages, Texture, TextureFormat, TextureView,
 };
 
 /// Texels across and, at most, down of textures that are arrays, as in `lists.wgsl.in` and `exact.wgsl`.
@@ -29,7 +30,7 @@ const SEGMENT: u32 = 128;
 /// Invocations of its workgroups.
 const WORKGROUP: u32 = 64;
 /// Bytes of `ListTotals`.
-const TOTALS: u64 = 16;
+const TOTALS: u64 = 8;
 
 /// What a map has room for.
 #[derive(Debug, Clone, Copy)]
@@ -105,11 +106,11 @@ impl Lists {
         let uniforms = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
         let storage = BufferUsages::STORAGE | BufferUsages::COPY_DST | BufferUsages::COPY_SRC;
         let slots = u64::from(room.views);
-        let views = buffer(device, "list views", slots * stride, uniforms);
+        let views = create::buffer(device, "list views", slots * stride, uniforms);
         let passes = passes(device, room, stride);
-        let counts = buffer(device, "list counts", room.count_bytes(), storage);
-        let marks = buffer(device, "list marks", 4 * u64::from(room.triangles.div_ceil(32)), storage);
-        let totals = buffer(device, "list totals", TOTALS * slots, storage);
+        let counts = create::buffer(device, "list counts", room.count_bytes(), storage);
+        let marks = create::buffer(device, "list marks", 4 * u64::from(room.triangles.div_ceil(32)), storage);
+        let totals = create::buffer(device, "list totals", TOTALS * slots, storage);
         let Size { width, height } = room.size;
         let layers = [2, room.number_layers(), 3];
         let rows = room.entries().div_ceil(ROW).min(ROW);
@@ -144,7 +145,7 @@ impl Lists {
         let of_view = |i: usize, view: u32| part(&textures[i].0, view * layers[i], layers[i]);
         let draw = |view: u32, fills: u32| {
             let (numbers, corners) = (of_view(1, view), of_view(2, view));
-            bind(
+            create::bind(
                 device,
                 &draw_layout,
                 [
@@ -152,7 +153,6 @@ impl Lists {
                     pass(view, fills),
                     counts.as_entire_binding(),
                     marks.as_entire_binding(),
-                    totals.as_entire_binding(),
                     wgpu::BindingResource::TextureView(&numbers),
                     wgpu::BindingResource::TextureView(&corners),
                 ],
@@ -160,7 +160,7 @@ impl Lists {
         };
         let scan = |view: u32| {
             let ranges = of_view(0, view);
-            bind(
+            create::bind(
                 device,
                 &scan_layout,
                 [
@@ -178,7 +178,9 @@ impl Lists {
                 None,
                 TrianglePass::Pulled(Coverage::Touched, spot),
             );
-            pipelines.caster(&shader, &[], |device| compile(device, &shader, &draw_layout, &[]))
+            pipelines.caster(&shader, &[], |device| {
+                create::compile(device, &shader, CompareFunction::Always, &draw_layout, &[])
+            })
         };
         Self {
             draws: (0..room.views).map(|view| [draw(view, 0), draw(view, 1)]).collect(),
@@ -205,7 +207,7 @@ impl Lists {
         user: &[&BindGroupLayout],
     ) -> RenderPipeline {
         let shader = shader::triangles(technique, &Capabilities::of(device), Some(wgsl), TrianglePass::Any);
-        compile(device, &shader, &draw_layout(device), user)
+        create::compile(device, &shader, CompareFunction::Always, &draw_layout(device), user)
     }
 
     /// The pipeline for a view of this kind.
@@ -296,17 +298,12 @@ impl Lists {
     /// One sentence for `explain`.
     pub(super) fn explain(&self) -> String {
         format!(
-            "lists of {} triangles, {} per texel, of {} different ones in each view; list_totals() tells whether that was enough",
+            "lists of {} triangles, {} per texel, of {} different ones in each view; list_totals() and triangles_drawn() tell whether that was enough",
             self.room.entries(),
             self.room.per_texel,
             self.room.triangles
         )
     }
-}
-
-fn buffer(device: &wgpu::Device, label: &str, size: u64, usage: BufferUsages) -> Buffer {
-    let descriptor = wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: false };
-    device.create_buffer(&descriptor)
 }
 
 /// `ListPass` of every view, to count and to fill; never changes.
@@ -340,28 +337,6 @@ fn part(texture: &Texture, base_array_layer: u32, layers: u32) -> TextureView {
     })
 }
 
-fn bind<const N: usize>(
-    device: &wgpu::Device,
-    layout: &BindGroupLayout,
-    resources: [wgpu::BindingResource<'_>; N],
-) -> BindGroup {
-    let mut binding = 0..;
-    let entries = resources.map(|resource| BindGroupEntry { binding: binding.next().unwrap_or(0), resource });
-    device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some("lists"), layout, entries: &entries })
-}
-
-const UNIFORM: BindingType = BindingType::Buffer {
-    ty: wgpu::BufferBindingType::Uniform,
-    has_dynamic_offset: false,
-    min_binding_size: None,
-};
-
-const ATOMIC: BindingType = BindingType::Buffer {
-    ty: wgpu::BufferBindingType::Storage { read_only: false },
-    has_dynamic_offset: false,
-    min_binding_size: None,
-};
-
 fn stored(format: TextureFormat) -> BindingType {
     BindingType::StorageTexture {
         access: wgpu::StorageTextureAccess::WriteOnly,
@@ -370,28 +345,13 @@ fn stored(format: TextureFormat) -> BindingType {
     }
 }
 
-fn layout(device: &wgpu::Device, types: &[(ShaderStages, BindingType)]) -> BindGroupLayout {
-    let entries: Vec<BindGroupLayoutEntry> = (0..)
-        .zip(types)
-        .map(|(binding, (visibility, ty))| BindGroupLayoutEntry {
-            binding,
-            visibility: *visibility,
-            ty: *ty,
-            count: None,
-        })
-        .collect();
-    let descriptor = wgpu::BindGroupLayoutDescriptor { label: Some("lists"), entries: &entries };
-    device.create_bind_group_layout(&descriptor)
-}
-
 fn draw_layout(device: &wgpu::Device) -> BindGroupLayout {
     let fragment = |ty| (ShaderStages::FRAGMENT, ty);
-    layout(
+    create::layout(
         device,
         &[
             (ShaderStages::VERTEX_FRAGMENT, UNIFORM),
             fragment(UNIFORM),
-            fragment(ATOMIC),
             fragment(ATOMIC),
             fragment(ATOMIC),
             fragment(stored(TextureFormat::R32Uint)),
@@ -402,69 +362,16 @@ fn draw_layout(device: &wgpu::Device) -> BindGroupLayout {
 
 fn scan_layout(device: &wgpu::Device) -> BindGroupLayout {
     let all = [UNIFORM, ATOMIC, ATOMIC, stored(TextureFormat::R32Uint)];
-    layout(device, &all.map(|ty| (ShaderStages::COMPUTE, ty)))
-}
-
-fn module(device: &wgpu::Device, shader: &str) -> wgpu::ShaderModule {
-    device.create_shader_module(wgpu::ShaderModuleDescriptor {
-        label: Some("shadow lists"),
-        source: wgpu::ShaderSource::Wgsl(shader.into()),
-    })
-}
-
-fn pipeline_layout(device: &wgpu::Device, groups: &[Option<&BindGroupLayout>]) -> wgpu::PipelineLayout {
-    device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        label: Some("shadow lists"),
-        bind_group_layouts: groups,
-        immediate_size: 0,
-    })
+    create::layout(device, &all.map(|ty| (ShaderStages::COMPUTE, ty)))
 }
 
 fn compile_scan(device: &wgpu::Device, layout: &BindGroupLayout) -> ComputePipeline {
     device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
         label: Some("scan"),
-        layout: Some(&pipeline_layout(device, &[Some(layout)])),
-        module: &module(device, shader::SCAN),
+        layout: Some(&create::pipeline_layout(device, &[Some(layout)])),
+        module: &create::module(device, shader::SCAN),
         entry_point: Some("compute"),
         compilation_options: Default::default(),
-        cache: None,
-    })
-}
-
-fn compile(
-    device: &wgpu::Device,
-    shader: &str,
-    own: &BindGroupLayout,
-    user: &[&BindGroupLayout],
-) -> RenderPipeline {
-    let module = module(device, shader);
-    let mesh = caster::mesh_layout(device);
-    let groups: Vec<_> = [own, &mesh].into_iter().chain(user.iter().copied()).map(Some).collect();
-    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some("shadow lists"),
-        layout: Some(&pipeline_layout(device, &groups)),
-        vertex: wgpu::VertexState {
-            module: &module,
-            entry_point: Some("vertex"),
-            compilation_options: Default::default(),
-            buffers: &[],
-        },
-        primitive: Default::default(),
-        depth_stencil: Some(wgpu::DepthStencilState {
-            format: DEPTH_FORMAT,
-            depth_write_enabled: Some(false),
-            depth_compare: Some(wgpu::CompareFunction::Always),
-            stencil: Default::default(),
-            bias: Default::default(),
-        }),
-        multisample: Default::default(),
-        fragment: Some(wgpu::FragmentState {
-            module: &module,
-            entry_point: Some("fragment"),
-            compilation_options: Default::default(),
-            targets: &[],
-        }),
-        multiview_mask: None,
         cache: None,
     })
 }

@@ -2,6 +2,7 @@
 
 use super::{
     lists::Lists,
+    nearest::NearestTriangles,
     textures::{self, Textures},
     uniforms::{self, Uniforms},
 };
@@ -18,6 +19,7 @@ pub(super) fn group(
     textures: &Textures,
     uniforms: &Uniforms,
     lists: Option<&Lists>,
+    nearest: Option<&NearestTriangles>,
 ) -> (wgpu::BindGroupLayout, wgpu::BindGroup) {
     use wgpu::{BindingResource, BindingType, SamplerBindingType, TextureSampleType};
     let texture = |sample_type| BindingType::Texture {
@@ -55,6 +57,15 @@ pub(super) fn group(
                     _ => TextureSampleType::Float { filterable: false },
                 };
                 (texture(kind), BindingResource::TextureView(view))
+            }
+            Binding::Nearest(buffer) => {
+                let Some(nearest) = nearest else { continue };
+                let ty = BindingType::Buffer {
+                    ty: wgpu::BufferBindingType::Storage { read_only: true },
+                    has_dynamic_offset: false,
+                    min_binding_size: None,
+                };
+                (ty, nearest.buffer(*buffer).as_entire_binding())
             }
             Binding::Sampler => {
                 let kind =

@@ -1,5 +1,5 @@
 struct ListPass { view: u32, fills: u32, entries: u32, triangles: u32 }
-struct ListTotals { entries: atomic<u32>, longest: atomic<u32>, triangles: atomic<u32>, padding: u32 }
+struct ListTotals { entries: atomic<u32>, longest: atomic<u32> }
 @group(0) @binding(0) var<uniform> list_pass: ListPass;
 @group(0) @binding(1) var<storage, read_write> list_counts: array<u32>;
 @group(0) @binding(2) var<storage, read_write> list_totals: array<ListTotals>;

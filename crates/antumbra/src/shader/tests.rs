@@ -61,6 +61,9 @@ fn variants() -> Vec<Box<dyn Technique>> {
         if names.contains(&"layers") {
             settings.extend(["packing=map,layers=1", "packing=texel,samples=4", "samples=2"]);
         }
+        if names.contains(&"keeps") {
+            settings.extend(["keeps=1,samples=3", "keeps=32"]);
+        }
         if names.contains(&"moments") {
             settings.push("moments=two");
         }
@@ -183,7 +186,14 @@ fn every_shared_file_validates_with_its_needs_and_nothing_else() {
 fn every_technique_validates_with_its_needs() {
     for device in devices() {
         for technique in variants() {
-            let text = ShaderText::library(technique.as_ref(), &device).text();
+            let mut text = ShaderText::library(technique.as_ref(), &device).text();
+            // Buffers are read through functions that come with them.
+            for binding in technique.bindings() {
+                if let Binding::Nearest(nearest) = binding {
+                    let (name, result) = accessor(nearest);
+                    text += &format!("fn {name}(i: u32) -> {result} {{ return {result}(); }}\n");
+                }
+            }
             let spec = technique::spec(technique.as_ref());
             let module = validate(&text).unwrap_or_else(|e| panic!("{spec}: {e}"));
             assert!(module.global_variables.is_empty(), "{spec} binds something");
@@ -210,7 +220,7 @@ fn every_composed_receiver_and_pass_validates() {
                 use TrianglePass::{Any, Indexed, Pulled};
                 let both = [Coverage::Touched, Coverage::Centre];
                 let pulled = both.into_iter().flat_map(|c| [Pulled(c, false), Pulled(c, true)]);
-                let lists = matches!(technique.caster(), Caster::Lists { .. });
+                let lists = matches!(technique.caster(), Caster::Lists { .. } | Caster::Nearest { .. });
                 let indexed = both.into_iter().filter(|_| !lists).map(Indexed);
                 let plain = pulled.chain(indexed).chain([Any]).map(|pass| (None, pass));
                 for (cutout, pass) in plain.chain([(Some(cutout), Any)]) {

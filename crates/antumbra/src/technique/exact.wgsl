@@ -1,18 +1,4 @@
-/// Twice the area of the triangle between the receiver and two corners, given relative to it. The same
-/// number with the other sign for corners the other way around, so that no ray passes between two
-/// triangles with a common edge.
-fn exact_area(a: vec3f, b: vec3f) -> f32 {
-    return a.x * b.y - a.y * b.x;
-}
-
-/// Depth at the receiver's ray of a triangle whose corners lie around it in x and y, depths in z; beyond
-/// all depths if the ray misses it.
-fn exact_depth(a: vec3f, b: vec3f, c: vec3f) -> f32 {
-    let weights = vec3f(exact_area(b, c), exact_area(c, a), exact_area(a, b));
-    let sum = weights.x + weights.y + weights.z;
-    let inside = all(weights >= vec3f(0.0)) || all(weights <= vec3f(0.0));
-    return select(1e30, dot(weights, vec3f(a.z, b.z, c.z)) / sum, inside && sum != 0.0);
-}
+//! needs ray
 
 /// Corner `k` of triangle `n`.
 fn exact_corner(corners: texture_2d_array<f32>, n: u32, view: u32, k: u32) -> vec3f {
@@ -34,7 +20,7 @@ fn exact_visibility(ranges: texture_2d_array<u32>, numbers: texture_2d_array<u32
         let a = exact_corner(corners, n, view, 0u) - ray;
         let b = exact_corner(corners, n, view, 1u) - ray;
         let c = exact_corner(corners, n, view, 2u) - ray;
-        if exact_depth(a, b, c) < depth {
+        if ray_depth(a, b, c) < depth {
             return 0.0;
         }
     }

@@ -1,4 +1,4 @@
-//! needs coverage packing
+//! needs coverage packing samples spline
 
 /// Positions along one side of a pixel at which shadows are asked.
 const spsm_samples: u32 = 1;
@@ -208,15 +208,6 @@ fn spsm_class(map: texture_2d_array<u32>, uv: vec2f, view: u32, depth: f32, plan
     }
     return select(spsm_uncertain, spsm_lit, found == spsm_around);
 }
-
-/// Weight of a place in the mean around another, `away` texels from it: the quadratic B-spline, 1 in sum
-/// over all texels.
-fn spsm_weight(away: vec2f) -> f32 {
-    let far = max(1.5 - abs(away), vec2f(0.0));
-    let weight = select(0.5 * far * far, 0.75 - away * away, abs(away) < vec2f(0.5));
-    return weight.x * weight.y;
-}
-
 /// Share of the light around a point, smoothed over the nine texels around it, by their centres: what an
 /// ordinary shadow map knows.
 fn spsm_share(map: texture_2d_array<u32>, point: vec2f, view: u32, depth: f32, gain: vec2f) -> f32 {
@@ -227,7 +218,7 @@ fn spsm_share(map: texture_2d_array<u32>, point: vec2f, view: u32, depth: f32, g
         let away = vec2f(there) + 0.5 - point;
         let words = spsm_load(map, there, view, spsm_layers - 1u);
         let occluded = packing_holds(words) && packing_depth(words) < depth + dot(gain, away);
-        share += select(spsm_weight(away), 0.0, occluded);
+        share += select(spline_weight(away), 0.0, occluded);
     }
     return share;
 }
@@ -340,12 +331,7 @@ fn spsm_visibility(map: texture_2d_array<u32>, uv: vec2f, view: u32, depth: f32,
     var lit = 0u;
     var count = 4u;
     for (var i = 0u; i < count; i += 1u) {
-        // Rows without the corners, which have been asked.
-        var k = i - 3u;
-        k += select(0u, 1u, k >= side - 1u);
-        k += select(0u, 1u, k >= side * side - side);
-        k = select(k, (i & 1u) * (side - 1u) + (i >> 1u) * (side * side - side), i < 4u);
-        let at = (vec2f(f32(k % side), f32(k / side)) + 0.5) / f32(side) - 0.5;
+        let at = samples_place(i, side);
         let step = at.x * ddx + at.y * ddy;
         lit += select(0u, 1u, spsm_lights(map, uv + step, view, depth + dot(plane, step), plane));
         if i == 3u && lit % 4u != 0u {

@@ -237,7 +237,7 @@ pub(crate) fn spsm_tangents(gpu: &Gpu) {
 pub(crate) fn spsm_weighs_centres(gpu: &Gpu) {
     let rows = rows(31, |r| row([r.range(-2.0, 2.0), r.range(-2.0, 2.0)]));
     let found =
-        run::<1>(gpu, &functions(gpu, spsm::Packing::Edges), "put(0u, spsm_weight(take2(0u)));", &rows);
+        run::<1>(gpu, &functions(gpu, spsm::Packing::Edges), "put(0u, spline_weight(take2(0u)));", &rows);
     let weight =
         |scale: f64| move |r: &[f64; INPUTS]| ([spsm::reference::weight([scale * r[0], r[1]])], 1e-6);
     compare(&rows, &found, weight(1.0)).unwrap();

@@ -11,6 +11,7 @@ mod comparison;
 mod geometry;
 mod lists;
 mod lookups;
+mod nearest;
 mod receiver;
 mod silhouettes;
 mod stored;
@@ -185,6 +186,8 @@ fn main() {
     trials.add("lists hold all triangles", lists::lists_hold_all_triangles);
     trials.add("lists without room are cut", lists::lists_without_room_are_cut);
     trials.add("lists tell their memory", lists::lists_tell_their_memory);
+    trials.add("the first triangles are kept", nearest::the_first_are_kept);
+    trials.add("triangles without room are left out", nearest::triangles_without_room_are_left_out);
     trials.add("exact intersects", lists::exact_intersects);
     trials.add("silhouettes of fine meshes are recovered", silhouettes::fine_meshes);
     trials.add("edges of large triangles are smooth", silhouettes::edges_are_smooth);

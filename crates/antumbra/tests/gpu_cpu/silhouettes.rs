@@ -92,11 +92,15 @@ pub(crate) fn fine_meshes(gpu: &Gpu) {
     };
     const PUBLISHED: f64 = 0.065;
     const MOST: f64 = 0.0285;
+    const FULL: f64 = 0.035;
+    const ROOM: f64 = 0.001;
     let whole = [
         ("spsm", MOST),
         ("spsm.packing=texel", MOST),
         ("spsm.packing=map", MOST),
         ("spsm.layers=1", PUBLISHED),
+        ("dpm", FULL),
+        ("dpm.keeps=12", ROOM),
     ];
     for (spec, most) in whole {
         let share = wrong(&Broken::new(spec));
@@ -119,6 +123,21 @@ pub(crate) fn fine_meshes(gpu: &Gpu) {
         ),
         ("all that is uncertain lit", MOST, Broken::saying("spsm", open, "const spsm_open: f32 = 0.0")),
         ("all that is uncertain dark", MOST, Broken::saying("spsm", open, "const spsm_open: f32 = 2.0")),
+        (
+            "texels that are not full uncertain",
+            ROOM,
+            Broken::saying(
+                "dpm.keeps=12",
+                "key == 0u {\n            return dpm_lit",
+                "key == 0u {\n            return dpm_uncertain",
+            ),
+        ),
+        ("full texels certain", FULL, Broken::saying("dpm", "select(dpm_uncertain,", "select(dpm_lit,")),
+        (
+            "full texels dark",
+            FULL,
+            Broken::saying("dpm", "const dpm_open: f32 = 0.28", "const dpm_open: f32 = 2.0"),
+        ),
         ("triangles at centres", MOST, Broken { coverages: Some(centres), ..Broken::new("spsm") }),
     ];
     for (what, most, broken) in broken {
@@ -155,6 +174,8 @@ pub(crate) fn edges_are_smooth(gpu: &Gpu) {
         ("spsm.samples=3", 0.4),
         ("spsm.samples=4", 0.3),
         ("spsm.samples=4,layers=1", 0.3),
+        ("dpm.samples=2", 0.6),
+        ("dpm.samples=4", 0.3),
     ] {
         let found = error(&Broken::new(spec));
         assert!(found < most * one, "{spec}: {found}, {one} with one sample");
@@ -207,7 +228,7 @@ pub(crate) fn holes_stay_open(gpu: &Gpu) {
         let clear = points.iter().zip(found).filter(|(p, _)| off(p).abs() > 1.5);
         clear.filter(|(p, f)| (*f < 0.5) != (off(p) > 0.0)).count()
     };
-    for spec in ["spsm", "spsm.layers=1", "spsm.packing=map"] {
+    for spec in ["spsm", "spsm.layers=1", "spsm.packing=map", "dpm", "exact"] {
         assert_eq!(wrong(&Broken::new(spec), holed), 0, "{spec}");
     }
     assert!(wrong(&Broken::new("spsm"), whole) > 400, "a square without a hole");

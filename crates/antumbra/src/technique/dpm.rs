@@ -1,0 +1,120 @@
+//! Deep primitive maps: every texel keeps the numbers of the nearest triangles that touch it, and lookups
+//! intersect the receiver's ray with those.
+//!
+//! As published, a texel keeps what comes first, and more is lost. Here an atomic maximum per entry leaves
+//! the same triangles in the same order whatever order they are drawn in: first far sides, which lie on
+//! no lit receiver and of closed casters make the whole shadow alone, then near sides; each from the light
+//! on. Where less than all that touch a texel were kept and none of them is in the way, the centres of the
+//! texels around decide. That is where edges fray: where many small triangles share a texel.
+//!
+//! Story 2015, "Hybrid Ray-Traced Shadows" (Game Developers Conference); the k-buffer of Bavoil et al.
+//! 2007.
+
+use super::{BiasTerms, Binding, Caster, Class, Constant, DepthSpace, Family, Map, Nearest, Page, Technique};
+use crate::{
+    capabilities::Capabilities,
+    error::Unsupported,
+    parameter::{Field, Parameter},
+};
+
+/// Deep primitive map. 4 bytes per texel and triangle kept, 4 for the depth of its centre, 48 for every
+/// triangle of the scene; 4 lookups for every triangle kept until one shadows or all others lie deeper, up
+/// to 10 more where some are missing.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Dpm {
+    /// Triangles per texel.
+    pub keeps: u32,
+    /// Triangles of one view that there is room for, those that a spot cuts twice.
+    pub triangles: u32,
+    /// Positions along one side of a pixel at which shadows are asked, 1 to 4: those in its corners, and
+    /// where these differ all.
+    pub samples: u32,
+}
+
+impl Default for Dpm {
+    fn default() -> Self {
+        Self { keeps: 4, triangles: 1 << 19, samples: 1 }
+    }
+}
+
+impl Technique for Dpm {
+    fn page(&self) -> Page {
+        Page {
+            name: "dpm",
+            title: "Deep primitive map",
+            family: Family::Geometry,
+            paper: "Story 2015, with the nearest triangles",
+        }
+    }
+    fn parameters(&mut self) -> Vec<Parameter<'_>> {
+        vec![
+            Parameter::new(
+                "keeps",
+                "triangles",
+                Field::Count(&mut self.keeps, 1..=32),
+                "triangles per texel of those that touch it: far sides, then near sides, from the light on",
+            ),
+            Parameter::new(
+                "triangles",
+                "",
+                Field::Count(&mut self.triangles, 1..=1 << 24),
+                "triangles of the casters that there is room for",
+            ),
+            Parameter::new(
+                "samples",
+                "",
+                Field::Count(&mut self.samples, 1..=4),
+                "positions along one side of a pixel at which shadows are asked: corners, and where they differ all",
+            ),
+        ]
+    }
+    fn maps(&self, _: &Capabilities) -> Result<Vec<Map>, Unsupported> {
+        Ok(Vec::new())
+    }
+    fn caster(&self) -> Caster {
+        Caster::Nearest { keeps: self.keeps, triangles: self.triangles }
+    }
+    fn bindings(&self) -> Vec<Binding> {
+        vec![Binding::Depth, Binding::Nearest(Nearest::Keys), Binding::Nearest(Nearest::Corners)]
+    }
+    fn wgsl(&self) -> &'static str {
+        include_str!("dpm.wgsl")
+    }
+    fn constants(&self) -> Vec<Constant> {
+        vec![
+            Constant::Count("dpm_keeps", self.keeps),
+            Constant::Count("dpm_triangles", self.triangles),
+            Constant::Count("dpm_bits", Nearest::number_bits(self.triangles)),
+            Constant::Count("dpm_samples", self.samples),
+        ]
+    }
+    fn bias(&self) -> BiasTerms {
+        BiasTerms { constant_texels: 0.005, slope_texels: 0.005, depth_steps: 8.0, ..BiasTerms::NONE }
+    }
+    /// Distance of 32-bit floats below 1, where a spot's projected depths crowd.
+    fn depth_step(&self) -> f32 {
+        f32::EPSILON / 2.0
+    }
+    fn depth_space(&self) -> DepthSpace {
+        DepthSpace::Raster
+    }
+    /// Centres are asked a texel farther out.
+    fn reach_texels(&self) -> f32 {
+        1.5
+    }
+    /// Of a full texel.
+    fn lookups(&self) -> u32 {
+        4 * self.keeps
+    }
+    fn classes(&self) -> &'static [Class] {
+        const CLASSES: [Class; 2] = [
+            Class { name: "shadowed by a triangle of its texel", colour: [90, 110, 160] },
+            Class { name: "uncertain", colour: [224, 32, 32] },
+        ];
+        &CLASSES
+    }
+    fn boxed(&self) -> Box<dyn Technique> {
+        Box::new(*self)
+    }
+}

@@ -1,0 +1,112 @@
+//! needs key ray samples spline
+
+/// Triangles per texel.
+const dpm_keeps: u32 = 4;
+/// Triangles of a view that there is room for.
+const dpm_triangles: u32 = 524288;
+/// Bits of their numbers.
+const dpm_bits: u32 = 19;
+/// Positions along one side of a pixel at which shadows are asked.
+const dpm_samples: u32 = 1;
+/// Receivers that may be behind a triangle which was not kept are lit where this share of the light around
+/// them is: less than half, since the triangles that were kept cover most of a shadow.
+const dpm_open: f32 = 0.28;
+
+/// Class of a receiver that is behind no triangle of its texel, and of these none is missing.
+const dpm_lit: u32 = 0;
+/// Class of a receiver that is behind a triangle of its texel.
+const dpm_shadowed: u32 = 1;
+/// Class of a receiver that may be behind a triangle which was not kept.
+const dpm_uncertain: u32 = 2;
+
+/// Whether the caster at a texel's centre is nearer than a receiver at `point`. `gain` is the receiver's
+/// plane per texel.
+fn dpm_occluded(casters: texture_depth_2d_array, texel: vec2i, point: vec2f, view: u32, depth: f32, gain: vec2f) -> bool {
+    let inside = clamp(texel, vec2i(0), vec2i(textureDimensions(casters)) - 1);
+    return textureLoad(casters, inside, view, 0) < depth + dot(gain, vec2f(texel) + 0.5 - point);
+}
+
+/// Class of a receiver.
+///
+/// Full texels may lack triangles: those that are less worth keeping than the last one. The far sides of
+/// closed casters alone make their whole shadow, so that a receiver which lies before a far side that was
+/// kept is lit; unless some single sheet is missing, which the texel's centre is asked for. There the
+/// receiver's own surface must not count: it gets as much room as it rises within a texel.
+fn dpm_class_at(casters: texture_depth_2d_array, point: vec2f, view: u32, depth: f32, gain: vec2f) -> u32 {
+    let size = textureDimensions(casters);
+    let texel = min(vec2u(max(point, vec2f(0.0))), size - 1u);
+    let start = ((view * size.y + texel.y) * size.x + texel.x) * dpm_keeps;
+    let step = key_step(depth, dpm_bits);
+    let ray = vec3f(point, 0.0);
+    var key = 0u;
+    for (var i = start; i < start + dpm_keeps; i += 1u) {
+        key = shadow_key(i);
+        if key == 0u {
+            return dpm_lit;
+        }
+        if key_deeper(key, step, dpm_bits) {
+            continue;
+        }
+        let at = 3u * (view * dpm_triangles + key_number(key, dpm_bits));
+        if ray_depth(shadow_corner(at) - ray, shadow_corner(at + 1u) - ray, shadow_corner(at + 2u) - ray) < depth {
+            return dpm_shadowed;
+        }
+    }
+    let near = key_is_near(key);
+    let deeper = key_deeper(key, step, dpm_bits);
+    if near && deeper {
+        return dpm_lit;
+    }
+    let before = depth - dot(abs(gain), vec2f(1.0));
+    let complete = (near || deeper) && !dpm_occluded(casters, vec2i(texel), point, view, before, gain);
+    return select(dpm_uncertain, dpm_lit, complete);
+}
+
+/// Share of the light around a receiver, by the centres of the nine texels there.
+fn dpm_share(casters: texture_depth_2d_array, point: vec2f, view: u32, depth: f32, gain: vec2f) -> f32 {
+    let texel = vec2i(floor(point));
+    var share = 0.0;
+    for (var i = 0; i < 9; i += 1) {
+        let there = texel + vec2i(i % 3, i / 3) - 1;
+        let weight = spline_weight(vec2f(there) + 0.5 - point);
+        share += select(weight, 0.0, dpm_occluded(casters, there, point, view, depth, gain));
+    }
+    return share;
+}
+
+/// Whether a receiver is lit: what its class says, or the centres around it.
+fn dpm_lights(casters: texture_depth_2d_array, point: vec2f, view: u32, depth: f32, gain: vec2f) -> bool {
+    let found = dpm_class_at(casters, point, view, depth, gain);
+    if found != dpm_uncertain {
+        return found == dpm_lit;
+    }
+    return dpm_share(casters, point, view, depth, gain) >= dpm_open;
+}
+
+/// Share of a pixel that is lit. `depth` and `plane` are of projected depth, in which triangles are planes
+/// under any light. Of several samples those in the pixel's corners come first, and the others only where
+/// these differ.
+fn dpm_visibility(casters: texture_depth_2d_array, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f) -> f32 {
+    let size = vec2f(textureDimensions(casters));
+    if dpm_samples == 1u {
+        return select(0.0, 1.0, dpm_lights(casters, uv * size, view, depth, plane / size));
+    }
+    var lit = 0u;
+    var count = 4u;
+    for (var i = 0u; i < count; i += 1u) {
+        let at = samples_place(i, dpm_samples);
+        let step = at.x * ddx + at.y * ddy;
+        let there = depth + dot(plane, step);
+        lit += select(0u, 1u, dpm_lights(casters, (uv + step) * size, view, there, plane / size));
+        if i == 3u && lit % 4u != 0u {
+            count = dpm_samples * dpm_samples;
+        }
+    }
+    return f32(lit) / f32(count);
+}
+
+/// Class of a receiver at a pixel's centre. Arguments as dpm_visibility.
+fn dpm_class(casters: texture_depth_2d_array, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f) -> u32 {
+    let size = vec2f(textureDimensions(casters));
+    return dpm_class_at(casters, uv * size, view, depth, plane / size);
+}

@@ -1,0 +1,137 @@
+//! The nearest triangles of texels: which ones are kept, in which order, and where their corners are.
+
+use super::lists::{MAP, TEXELS, TRIANGLES, drawn, on_map, overlapping, soup, views};
+use crate::common::{Random, compute};
+use antumbra::{Dpm, Options, ShadowMap, technique::Nearest};
+use antumbra_testing::Gpu;
+use glam::{DVec2, Vec3};
+use std::collections::BTreeSet;
+
+/// What a key says: near side seen, step of depth, number. The order of these is that of keys.
+type Key = (bool, u32, u32);
+
+/// Keys of each texel of a view, and the corners of every triangle.
+fn found(
+    gpu: &Gpu,
+    shadows: &ShadowMap,
+    keeps: usize,
+    view: u32,
+    triangles: u32,
+) -> (Vec<Vec<Key>>, Vec<[Vec3; 3]>) {
+    let stride = 9.max(3 * keeps);
+    let user = format!(
+        "@group(1) @binding(0) var<storage, read> unused: array<f32>;
+        @group(1) @binding(1) var<storage, read_write> results: array<f32>;
+        @compute @workgroup_size(64) fn main(@builtin(global_invocation_id) id: vec3u) {{
+            if id.x >= {TEXELS}u + {triangles}u {{ return; }}
+            let me = id.x * {stride}u;
+            if id.x >= {TEXELS}u {{
+                let n = id.x - {TEXELS}u;
+                for (var k = 0u; k < 9u; k += 1u) {{
+                    results[me + k] = shadow_corner(3u * ({view}u * dpm_triangles + n) + k / 3u)[k % 3u];
+                }}
+                return;
+            }}
+            for (var i = 0u; i < {keeps}u; i += 1u) {{
+                let key = shadow_key(({view}u * {TEXELS}u + id.x) * {keeps}u + i);
+                let at = me + 3u * i;
+                results[at] = select(select(0.0, 1.0, key_is_near(key)), -1.0, key == 0u);
+                results[at + 1u] = f32((~key & ~key_near) >> dpm_bits);
+                results[at + 2u] = f32(key_number(key, dpm_bits));
+            }}
+        }}
+        fn keep(p: vec3f) -> f32 {{ return shadow_visibility(p, p, p, p) + unused[0]; }}"
+    );
+    let count = TEXELS + triangles as usize;
+    let flat = compute(gpu, shadows, &user, &[0; 16], count * stride, count);
+    let (texels, corners) = flat.split_at(TEXELS * stride);
+    let keys = |t: &[f32]| {
+        let held = t[..3 * keeps].chunks_exact(3).take_while(|k| k[0] >= 0.0);
+        held.map(|k| (k[0] == 1.0, k[1] as u32, k[2] as u32)).collect()
+    };
+    let corner = |c: &[f32]| [0, 1, 2].map(|k| Vec3::new(c[3 * k], c[3 * k + 1], c[3 * k + 2]));
+    (texels.chunks_exact(stride).map(keys).collect(), corners.chunks_exact(stride).map(corner).collect())
+}
+
+/// The key of a triangle in a texel; its step may be off by rounding.
+fn key(triangle: &[Vec3; 3], number: u32, texel: usize) -> Key {
+    let [a, b, c] = triangle.map(|p| p.as_dvec3());
+    let centre = DVec2::new((texel % 48) as f64 + 0.5, (texel / 48) as f64 + 0.5);
+    let normal = (b - a).cross(c - a);
+    let slope = -normal.truncate() / normal.z;
+    let plane = a.z + slope.dot(centre - a.truncate()) - 0.5 * (slope.x.abs() + slope.y.abs());
+    let least = plane.clamp(a.z.min(b.z).min(c.z), a.z.max(b.z).max(c.z));
+    let steps = (1u32 << (31 - Nearest::number_bits(TRIANGLES))) - 2;
+    (normal.z < 0.0, (least * f64::from(steps)) as u32, number)
+}
+
+/// With vertices that can store, and without: every texel keeps the first of all triangles that touch it, in
+/// order, and numbers lead to corners.
+pub(crate) fn the_first_are_kept(gpu: &Gpu) {
+    let lesser = antumbra_testing::gpu_without(wgpu::Features::VERTEX_WRITABLE_STORAGE).unwrap();
+    for gpu in [gpu, &lesser] {
+        for keeps in [1, 3, 8] {
+            keeps_the_first(gpu, keeps);
+        }
+    }
+}
+
+fn keeps_the_first(gpu: &Gpu, keeps: usize) {
+    let triangles = soup(&mut Random::new(35));
+    let technique = Dpm { keeps: keeps as u32, triangles: TRIANGLES, samples: 1 };
+    let shadows = drawn(gpu, &technique, &triangles);
+    assert_eq!(shadows.triangles_drawn(), TRIANGLES);
+    for (index, view) in (0..).zip(&views()) {
+        let placed = on_map(view, &triangles);
+        let (texels, corners) = found(gpu, &shadows, keeps, index, TRIANGLES);
+        let (mut full, mut unordered) = (0, 0);
+        for (texel, held) in texels.iter().enumerate() {
+            let numbers: BTreeSet<u32> = held.iter().map(|k| k.2).collect();
+            assert_eq!(numbers.len(), held.len(), "a triangle is kept twice: {held:?}");
+            assert!(numbers.is_subset(&overlapping(&placed, texel, 0.501)), "texel {texel}: {held:?}");
+            assert!(held.is_sorted(), "{held:?}");
+            for found in held {
+                let (near, step, _) = key(&placed[found.2 as usize], found.2, texel);
+                // A steep plane's depth is worth little, in 32 bits as in 64.
+                let off = f64::from(step.abs_diff(found.1));
+                assert!(near == found.0 && off <= 1.0 + 1e-4 * f64::from(step), "{found:?}, {step}");
+            }
+            let missing = overlapping(&placed, texel, 0.5).into_iter().filter(|n| !numbers.contains(n));
+            let missing: Vec<Key> = missing.map(|n| key(&placed[n as usize], n, texel)).collect();
+            if held.len() < keeps {
+                assert!(missing.is_empty(), "texel {texel} has room for {missing:?}");
+                continue;
+            }
+            let last = held[keeps - 1];
+            let later = |k: &&Key| (k.0, k.1 + 1 + k.1 / 10_000) >= (last.0, last.1);
+            assert_eq!(missing.iter().filter(later).count(), missing.len(), "{held:?} before {missing:?}");
+            full += usize::from(!missing.is_empty());
+            unordered += usize::from(missing.iter().any(|k| (k.1, k.0) < (last.1, last.0)));
+        }
+        assert!(full > TEXELS / 8, "{full} full texels");
+        assert!(keeps > 1 || unordered > 20, "order of depth alone would do: {unordered}");
+        let same = |found: &[Vec3; 3], expected: &[Vec3; 3]| {
+            expected.iter().all(|p| found.iter().any(|q| p.distance(*q) < 1e-4))
+        };
+        let kept: BTreeSet<u32> = texels.concat().iter().map(|k| k.2).collect();
+        let right = |shift: usize| {
+            let of = |n: &&u32| same(&corners[**n as usize], &placed[(**n as usize + shift) % placed.len()]);
+            kept.iter().filter(of).count()
+        };
+        assert_eq!(right(0), kept.len());
+        assert!(right(1) < 3, "{} of the next number", right(1));
+    }
+}
+
+/// Triangles beyond the room are left out and told.
+pub(crate) fn triangles_without_room_are_left_out(gpu: &Gpu) {
+    let triangles = soup(&mut Random::new(36));
+    let shadows = drawn(gpu, &Dpm { keeps: 6, triangles: 50, samples: 1 }, &triangles);
+    assert_eq!(shadows.triangles_drawn(), TRIANGLES);
+    let held: BTreeSet<u32> = found(gpu, &shadows, 6, 0, 50).0.concat().iter().map(|k| k.2).collect();
+    assert!(held.len() > 20 && held.iter().all(|n| *n < 50), "{held:?}");
+    let memory = ShadowMap::new(&gpu.device, &Dpm::default(), Options::from(MAP).views(2)).unwrap().memory();
+    let bytes = |name: &str| memory.items.iter().find(|i| i.name == name).map_or(0, |i| i.bytes);
+    assert_eq!(bytes("nearest triangles"), 2 * 4 * 4 * TEXELS as u64);
+    assert_eq!(bytes("nearest corners"), 2 * 48 * (1 << 19));
+}
