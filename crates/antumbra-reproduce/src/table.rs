@@ -156,7 +156,7 @@ fn run(bench: &Bench<'_>) -> Result<Page> {
 const NUMBERING: [&str; 2] = ["dpm", "exact"];
 
 /// A spec that has room for all triangles of a scene with so many.
-fn with_room(spec: &str, triangles: usize) -> String {
+pub(crate) fn with_room(spec: &str, triangles: usize) -> String {
     let (few, many) = (Dpm::default(), Exact::default());
     // Numbers of procedural scenes are rounded.
     let room = (triangles + triangles / 8) as u32;

@@ -193,6 +193,10 @@ fn wgsl_type(binding: Binding, maps: &[Map]) -> &'static str {
     }
 }
 
+/// What keys of triangles are linear by.
+const NEAR_OVER_FAR: &str =
+    "fn shadow_near_over_far(view: u32) -> f32 { return shadow.views[view].near_over_far; }\n";
+
 /// The function that reads a buffer, which WGSL cannot pass on, and its result.
 fn accessor(nearest: Nearest) -> (&'static str, &'static str) {
     match nearest {
@@ -221,6 +225,9 @@ pub(crate) fn receiver(
         let _ = writeln!(glue, "    setting_{uniform}: f32,");
     }
     let _ = writeln!(glue, "}}\n@group({group}) @binding(0) var<uniform> shadow: ShadowUniforms;");
+    if matches!(technique.caster(), Caster::Nearest { .. }) {
+        glue += NEAR_OVER_FAR;
+    }
     let mut arguments = String::new();
     let maps = technique.maps(device).unwrap_or_default();
     for (i, binding) in technique.bindings().into_iter().enumerate() {
@@ -318,7 +325,11 @@ pub(crate) fn triangles(
 ) -> String {
     let mut shader = match technique.caster() {
         // Nothing that it looks up is bound here.
-        Caster::Nearest { .. } => ShaderText::file("key", &[]),
+        Caster::Nearest { .. } => {
+            let mut shader = ShaderText::file("key", &[]);
+            shader.need("raster", &[]);
+            shader
+        }
         _ => ShaderText::library(technique, device),
     };
     shader.need("coverage", &[]);

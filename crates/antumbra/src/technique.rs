@@ -95,7 +95,8 @@ pub enum Caster {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Nearest {
     /// `shadow_key(i: u32) -> u32`: of each texel the keys of its triangles, as in `key.wgsl`, the
-    /// greatest first, 0 where there are fewer. Those of texel (x, y) begin at `keeps` · ((view ·
+    /// greatest first, 0 where there are fewer; with `shadow_near_over_far(view: u32) -> f32`, 1 for the
+    /// sun, which makes depth linear. Those of texel (x, y) begin at `keeps` · ((view ·
     /// height + y) · width + x).
     Keys,
     /// `shadow_corner(i: u32) -> vec3f`: corner c of triangle n at 3 · (view · `triangles` + n) + c: x

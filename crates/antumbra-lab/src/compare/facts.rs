@@ -78,7 +78,8 @@ pub fn memory(memory: &Memory) -> MemoryResult {
 #[must_use]
 pub fn work(shadows: &ShadowMap) -> Work {
     let memory = shadows.memory();
-    let kept = memory.items.iter().filter(|i| i.lifetime == antumbra::Lifetime::Kept && i.format != "buffer");
+    let of_texels = |i: &&antumbra::MemoryItem| i.format != "buffer" || i.width > 1;
+    let kept = memory.items.iter().filter(of_texels).filter(|i| i.lifetime == antumbra::Lifetime::Kept);
     let side = |length: u32, mip: u32| u64::from((length >> mip).max(1));
     let size = shadows.size();
     let finest = (side(size.width, 0) * side(size.height, 0)) as f64;

@@ -33,7 +33,8 @@ pub(super) struct CasterView {
     least_distance: f32,
     perspective: u32,
     reach: f32,
-    padding: [f32; 3],
+    near_over_far: f32,
+    padding: [f32; 2],
 }
 
 pub(super) const VIEW_BYTES: u64 = size_of::<CasterView>() as u64;
@@ -52,7 +53,8 @@ impl CasterView {
                 Coverage::Touched => 0.5,
                 Coverage::Centre => 0.0,
             },
-            padding: [0.0; 3],
+            near_over_far: view.near_over_far,
+            padding: [0.0; 2],
         }
     }
 }

@@ -1,5 +1,7 @@
 //! What a shadow map costs in bytes, item by item.
 
+use crate::light::Size;
+
 /// Whether an allocation holds the shadow map or only serves to make it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Lifetime {
@@ -18,9 +20,9 @@ pub struct MemoryItem {
     pub name: String,
     /// Texture format, or `buffer`.
     pub format: String,
-    /// Texels across (1 for buffers).
+    /// Texels across (1 for buffers that are not by texel).
     pub width: u32,
-    /// Texels down (1 for buffers).
+    /// Texels down, likewise.
     pub height: u32,
     /// Array layers.
     pub layers: u32,
@@ -65,6 +67,12 @@ impl MemoryItem {
             bytes: buffer.size(),
             lifetime: Lifetime::Kept,
         }
+    }
+    /// A buffer with as many words of 4 bytes for each texel as `layers`.
+    pub(super) fn texels(name: &str, buffer: &wgpu::Buffer, size: Size) -> Self {
+        let Size { width, height } = size;
+        let layers = (buffer.size() / (4 * u64::from(width) * u64::from(height))) as u32;
+        Self { width, height, layers, ..Self::buffer(name, buffer) }
     }
 }
 

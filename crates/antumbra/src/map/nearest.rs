@@ -215,18 +215,18 @@ impl NearestTriangles {
     }
 
     pub(super) fn memory(&self) -> Vec<MemoryItem> {
+        let texels = MemoryItem::texels("nearest triangles", &self.keys, self.room.size);
         let buffers = [
-            ("nearest triangles", &self.keys, Lifetime::Kept),
-            ("nearest corners", &self.corners, Lifetime::Kept),
-            ("nearest views", &self.views, Lifetime::Kept),
-            ("nearest passes", &self.passes, Lifetime::Kept),
+            ("nearest corners", &self.corners),
+            ("nearest views", &self.views),
+            ("nearest passes", &self.passes),
         ];
-        let item = |(name, buffer, lifetime): (&str, &Buffer, Lifetime)| MemoryItem {
-            lifetime,
-            ..MemoryItem::buffer(name, buffer)
-        };
-        let marks = self.marks.as_ref().map(|marks| ("nearest marks", marks, Lifetime::Transient));
-        buffers.into_iter().chain(marks).map(item).collect()
+        let marks = self.marks.as_ref().map(|marks| MemoryItem {
+            lifetime: Lifetime::Transient,
+            ..MemoryItem::buffer("nearest marks", marks)
+        });
+        let others = buffers.into_iter().map(|(name, buffer)| MemoryItem::buffer(name, buffer));
+        [texels].into_iter().chain(others).chain(marks).collect()
     }
 }
 

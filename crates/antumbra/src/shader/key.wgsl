@@ -1,10 +1,10 @@
 /// A triangle that touches a texel in 32 bits, the greater the more it is worth keeping; 0 is none. From the
-/// highest bit: whether its near side is seen; its depth; its number of `bits` bits; all inverted.
+/// highest bit: whether its near side is seen; its linear depth; its number of `bits` bits; all inverted.
 fn key_of(near: bool, depth: f32, number: u32, bits: u32) -> u32 {
     return ~(select(0u, key_near, near) | key_step(depth, bits) << bits | number);
 }
 
-/// Depth 0 to 1 in whole steps, rounded down; what lies outside is moved there.
+/// Linear depth 0 to 1 in whole steps, rounded down; what lies outside is moved there.
 fn key_step(depth: f32, bits: u32) -> u32 {
     return u32(clamp(depth, 0.0, 1.0) * f32((1u << (31u - bits)) - 2u));
 }

@@ -36,7 +36,7 @@ fn dpm_class_at(casters: texture_depth_2d_array, point: vec2f, view: u32, depth:
     let size = textureDimensions(casters);
     let texel = min(vec2u(max(point, vec2f(0.0))), size - 1u);
     let start = ((view * size.y + texel.y) * size.x + texel.x) * dpm_keeps;
-    let step = key_step(depth, dpm_bits);
+    let step = key_step(raster_linear(depth, shadow_near_over_far(view)), dpm_bits);
     let ray = vec3f(point, 0.0);
     var key = 0u;
     for (var i = start; i < start + dpm_keeps; i += 1u) {

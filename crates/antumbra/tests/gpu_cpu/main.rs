@@ -188,6 +188,7 @@ fn main() {
     trials.add("lists tell their memory", lists::lists_tell_their_memory);
     trials.add("the first triangles are kept", nearest::the_first_are_kept);
     trials.add("triangles without room are left out", nearest::triangles_without_room_are_left_out);
+    trials.add("centres have their depth", nearest::centres_have_their_depth);
     trials.add("exact intersects", lists::exact_intersects);
     trials.add("silhouettes of fine meshes are recovered", silhouettes::fine_meshes);
     trials.add("edges of large triangles are smooth", silhouettes::edges_are_smooth);

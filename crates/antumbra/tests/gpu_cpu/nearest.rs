@@ -1,8 +1,8 @@
 //! The nearest triangles of texels: which ones are kept, in which order, and where their corners are.
 
 use super::lists::{MAP, TEXELS, TRIANGLES, drawn, on_map, overlapping, soup, views};
-use crate::common::{Random, compute};
-use antumbra::{Dpm, Options, ShadowMap, technique::Nearest};
+use crate::common::{Random, caster_mesh, compute};
+use antumbra::{Dpm, Fit, Light, Options, ShadowMap, Size, technique::Nearest};
 use antumbra_testing::Gpu;
 use glam::{DVec2, Vec3};
 use std::collections::BTreeSet;
@@ -134,4 +134,61 @@ pub(crate) fn triangles_without_room_are_left_out(gpu: &Gpu) {
     let bytes = |name: &str| memory.items.iter().find(|i| i.name == name).map_or(0, |i| i.bytes);
     assert_eq!(bytes("nearest triangles"), 2 * 4 * 4 * TEXELS as u64);
     assert_eq!(bytes("nearest corners"), 2 * 48 * (1 << 19));
+}
+
+/// The depth of texels' centres is that of the nearest triangle there, also of triangles that reach behind
+/// a spot.
+pub(crate) fn centres_have_their_depth(gpu: &Gpu) {
+    const MAP: Size = Size::square(32);
+    let mut random = Random::new(37);
+    let mut point = || Vec3::from_array(std::array::from_fn(|_| random.range(-4.0, 4.0)));
+    let light = Light::Spot { position: Vec3::ZERO, direction: Vec3::NEG_Z, outer_angle: 0.7 };
+    let bounds = antumbra::Bounds { min: Vec3::splat(-4.0), max: Vec3::splat(4.0) };
+    let fit = Fit { casters: bounds, receivers: bounds.corners().collect(), size: MAP, margin_texels: 0.0 };
+    let view = light.view(&fit).unwrap();
+    let world_from_clip = view.clip_from_world.inverse();
+    let user = "@group(1) @binding(0) var<storage, read> unused: array<f32>;
+        @group(1) @binding(1) var<storage, read_write> results: array<f32>;
+        @compute @workgroup_size(64) fn main(@builtin(global_invocation_id) id: vec3u) {
+            results[id.x] = textureLoad(shadow_binding_0, vec2u(id.x % 32u, id.x / 32u), 0, 0);
+        }
+        fn keep(p: vec3f) -> f32 { return shadow_visibility(p, p, p, p) + unused[0]; }";
+    let (mut cut, mut empty, mut wrong) = (0, 0, 0);
+    for _ in 0..30 {
+        let triangles: Vec<[Vec3; 3]> = (0..6).map(|_| [point(), point(), point()]).collect();
+        let mut shadows = ShadowMap::new(&gpu.device, &Dpm::default(), MAP).unwrap();
+        shadows.prepare(&gpu.queue, &[view]).unwrap();
+        let mesh = caster_mesh(gpu, triangles.as_flattened());
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        shadows.encode(&mut encoder, |view, pass| mesh.draw(view, pass));
+        gpu.queue.submit([encoder.finish()]);
+        let depths = compute(gpu, &shadows, user, &[0; 16], 1024, 1024);
+        for (i, found) in depths.into_iter().enumerate() {
+            let (x, y) = ((i % 32) as f32 + 0.5, (i / 32) as f32 + 0.5);
+            let ndc = Vec3::new(x / 16.0 - 1.0, 1.0 - y / 16.0, 0.5);
+            let ray = world_from_clip.project_point3(ndc).as_dvec3().normalize();
+            let mut nearest = (1.0, false);
+            let mut clear = true;
+            for triangle in &triangles {
+                let [a, b, c] = triangle.map(|p| p.as_dvec3());
+                let volume = a.dot(b.cross(c));
+                let weights = [b.cross(c), c.cross(a), a.cross(b)].map(|n| n.dot(ray) * volume.signum());
+                clear &= weights.iter().all(|w| w.abs() > 0.02);
+                if weights.iter().all(|w| *w > 0.0) {
+                    let hit = ray * (volume.abs() / weights.iter().sum::<f64>());
+                    let depth = view.clip_from_world.project_point3(hit.as_vec3()).z.max(0.0);
+                    if depth < nearest.0 {
+                        nearest = (depth, triangle.iter().any(|p| p.z > 0.0));
+                    }
+                }
+            }
+            if clear {
+                cut += usize::from(nearest.1);
+                empty += usize::from(nearest.0 == 1.0);
+                wrong += usize::from((nearest.0 - found).abs() > 1e-4);
+            }
+        }
+    }
+    assert!(cut > 1000 && empty > 1000, "{cut} of triangles that reach behind, {empty} without any");
+    assert!(wrong < 10, "{wrong} texels have another depth");
 }
