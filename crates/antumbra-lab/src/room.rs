@@ -48,7 +48,7 @@ impl Room {
         let drawn = shadows.triangles_drawn();
         let (totals, per_texel, triangles) = match (shadows.technique().caster(), shadows.list_totals()) {
             (Caster::Lists { per_texel, triangles }, Some(totals)) => (totals, per_texel, triangles),
-            (Caster::Nearest { triangles, .. }, _) => {
+            (Caster::Ranked { triangles, .. }, _) => {
                 return Ok(Some(Self { spec, drawn, triangles, lists: None }));
             }
             _ => return Ok(None),

@@ -64,6 +64,7 @@
 //! | `lvsm` | [`Lvsm`] | 16·⌈L/2⌉ bytes, 1⅓ times with mips | ⌈L/2⌉ | bleeds only within an interval of depth; memory grows with the intervals |
 //! | `rgsm` | [`Rgsm`] | 16 bytes | 9, or n² | edges finer than texels where triangles are larger than those; elsewhere no better than `hard` |
 //! | `spsm` | [`Spsm`] | 16 bytes, 32 with 2 layers | 1 to 19, silhouettes up to 3 times that | edges finer than texels, hard; draws casters twice from storage buffers ([`CasterMesh`]), slow without a GPU |
+//! | `dpm` | [`Dpm`] | 4 bytes and 4 per triangle kept, 48 per triangle of the scene | 4 per triangle kept, 10 more where some are missing | what rays see where texels have room; hard; frays where more small triangles share a texel than are kept |
 //! | `exact` | [`Exact`] | 16 bytes and 4 per triangle in it, 48 per triangle of the scene | 2 and 4 per triangle in a list | what rays see, whatever the size of the map; memory for the triangles must be known beforehand |
 //!
 //! A technique is a value whose public fields are its settings; [`technique::parse`] reads them from
@@ -99,6 +100,7 @@
 //! | `TEXTURE_FORMAT_16BIT_NORM` and `TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES` | moments of `msm` take 32 bits instead of 16 |
 //! | `PRIMITIVE_INDEX` | triangles that casters are drawn as do not share vertices (`rgsm`, `spsm`; software drivers never share) |
 //! | `CONSERVATIVE_RASTERIZATION` | vertex shaders enlarge the triangles of `spsm`, and fragments leave out what they do not touch |
+//! | `VERTEX_WRITABLE_STORAGE` | fragments, not vertices, keep the corners of triangles (`dpm`) |
 //! | eight colour attachments of the format | layers are converted in several passes |
 //!
 //! # Features

@@ -19,8 +19,8 @@ mod draw;
 mod explain;
 mod lists;
 mod memory;
-mod nearest;
 mod pipelines;
+mod ranked;
 mod receiver;
 mod textures;
 mod uniforms;
@@ -30,8 +30,8 @@ use caster::TriangleCaster;
 use draw::Draw;
 use lists::{Lists, Room};
 pub use memory::{Lifetime, Memory, MemoryItem};
-use nearest::{NearestRoom, NearestTriangles};
 pub use pipelines::Pipelines;
+use ranked::{RankedRoom, RankedTriangles};
 use textures::Textures;
 use uniforms::Uniforms;
 
@@ -120,8 +120,8 @@ pub struct ShadowMap {
     triangles: Option<TriangleCaster>,
     /// For those that keep all of them.
     lists: Option<Lists>,
-    /// For those that keep the nearest.
-    nearest: Option<NearestTriangles>,
+    /// For those that keep the first ones by rank.
+    ranked: Option<RankedTriangles>,
     /// Triangles that they were given.
     drawn: AtomicU32,
     layout: wgpu::BindGroupLayout,
@@ -193,11 +193,11 @@ impl ShadowMap {
             }
             _ => None,
         };
-        let nearest = match technique.caster() {
-            Caster::Nearest { keeps, triangles } => {
-                let room = NearestRoom { size: options.size, views: options.views, keeps, triangles };
-                check::nearest(device, technique, room)?;
-                Some(NearestTriangles::new(device, technique, room, &pipelines))
+        let ranked = match technique.caster() {
+            Caster::Ranked { keeps, triangles } => {
+                let room = RankedRoom { size: options.size, views: options.views, keeps, triangles };
+                check::ranked(device, technique, room)?;
+                Some(RankedTriangles::new(device, technique, room, &pipelines))
             }
             _ => None,
         };
@@ -223,7 +223,7 @@ impl ShadowMap {
             &textures,
             &uniforms,
             lists.as_ref(),
-            nearest.as_ref(),
+            ranked.as_ref(),
         );
         Ok(Self {
             technique: technique.boxed(),
@@ -235,7 +235,7 @@ impl ShadowMap {
             draws,
             triangles,
             lists,
-            nearest,
+            ranked,
             drawn: AtomicU32::new(0),
             layout,
             bind_group,
@@ -267,8 +267,8 @@ impl ShadowMap {
         if let Some(lists) = &self.lists {
             lists.write(queue, views);
         }
-        if let Some(nearest) = &self.nearest {
-            nearest.write(queue, views);
+        if let Some(ranked) = &self.ranked {
+            ranked.write(queue, views);
         }
         Ok(())
     }
@@ -277,8 +277,8 @@ impl ShadowMap {
     /// [`clip_from_world`](View::clip_from_world) places the casters, and a pass with a depth
     /// attachment of [`DEPTH_FORMAT`], cleared to 1, and no colour. A technique that draws them several
     /// times asks for each of [`caster_views`](Self::caster_views). If the technique's
-    /// [`caster`](Technique::caster) is [`Caster::Triangles`] or [`Caster::Lists`], the pass has its
-    /// pipeline and group 0 set, and `draw`, which is called once per layer or twice, calls
+    /// [`caster`](Technique::caster) is not [`Caster::Depth`], the pass has its pipeline and group 0 set, and
+    /// `draw`, which is called once per layer of [`Caster::Triangles`], twice for [`Caster::Lists`], calls
     /// [`CasterMesh::draw`].
     pub fn encode(&self, encoder: &mut wgpu::CommandEncoder, draw: impl FnMut(&View, &mut RenderPass<'_>)) {
         self.encode_probed(encoder, &mut NoProbe, draw);
@@ -294,15 +294,14 @@ impl ShadowMap {
         let last = self.jitter.len() - 1;
         self.drawn.store(0, Ordering::Relaxed);
         for view in 0..self.views.len() {
+            let (depth, seen) = (self.textures.caster_target(view, 0), (view, &self.views[view]));
             if let Some(lists) = &self.lists {
-                let (depth, seen) = (self.textures.caster_target(view, 0), &self.views[view]);
-                lists.encode(encoder, (view, seen), depth, probe, &mut draw);
-                self.drawn.fetch_max(caster::numbered(), Ordering::Relaxed);
-                continue;
+                lists.encode(encoder, seen, depth, probe, &mut draw);
             }
-            if let Some(nearest) = &self.nearest {
-                let (depth, seen) = (self.textures.caster_target(view, 0), &self.views[view]);
-                nearest.encode(encoder, (view, seen), depth, probe, &mut draw);
+            if let Some(ranked) = &self.ranked {
+                ranked.encode(encoder, seen, depth, probe, &mut draw);
+            }
+            if self.lists.is_some() || self.ranked.is_some() {
                 self.drawn.fetch_max(caster::numbered(), Ordering::Relaxed);
                 continue;
             }
@@ -375,9 +374,9 @@ impl ShadowMap {
     ) -> Option<wgpu::RenderPipeline> {
         let technique = self.technique.as_ref();
         let triangles = self.triangles.as_ref().map(|t| t.cutout(device, technique, wgsl, layouts));
-        triangles
-            .or_else(|| self.lists.as_ref().map(|l| l.cutout(device, technique, wgsl, layouts)))
-            .or_else(|| self.nearest.as_ref().map(|l| l.cutout(device, technique, wgsl, layouts)))
+        let lists = || self.lists.as_ref().map(|l| l.cutout(device, technique, wgsl, layouts));
+        let ranked = || self.ranked.as_ref().map(|r| r.cutout(device, technique, wgsl, layouts));
+        triangles.or_else(lists).or_else(ranked)
     }
 
     /// A pipeline to return to after that one, in the closure of [`encode`](Self::encode). Slower than the
@@ -386,8 +385,8 @@ impl ShadowMap {
     #[must_use]
     pub fn triangle_caster(&self, view: &View) -> Option<&wgpu::RenderPipeline> {
         let lists = self.lists.as_ref().map(|l| l.pipeline(view));
-        let nearest = self.nearest.as_ref().map(|n| n.pipeline(view));
-        self.triangles.as_ref().map(TriangleCaster::general).or(lists).or(nearest)
+        let ranked = self.ranked.as_ref().map(|n| n.pipeline(view));
+        self.triangles.as_ref().map(TriangleCaster::general).or(lists).or(ranked)
     }
 
     /// Two `u32` per view, usage `COPY_SRC`, for techniques whose caster is [`Caster::Lists`]: entries
@@ -398,9 +397,10 @@ impl ShadowMap {
         self.lists.as_ref().map(Lists::totals)
     }
 
-    /// Triangles that the last [`encode`](Self::encode) drew in the view with most, those that a spot
-    /// cuts twice, for techniques whose caster is [`Caster::Lists`] or [`Caster::Nearest`]: what is beyond
-    /// their `triangles` casts no shadow. Else 0.
+    /// Numbers that the last [`encode`](Self::encode) gave to triangles in the view with most, for
+    /// techniques whose caster is [`Caster::Lists`] or [`Caster::Ranked`]: one for each triangle that was
+    /// drawn, two under a spot, which may cut it in two, and those of triangles before the first that was
+    /// drawn. What is beyond their `triangles` casts no shadow. Else 0.
     #[must_use]
     pub fn triangles_drawn(&self) -> u32 {
         self.drawn.load(Ordering::Relaxed)
@@ -485,7 +485,7 @@ impl ShadowMap {
         let mut memory = self.textures.memory(&self.uniforms);
         memory.items.extend(self.triangles.as_ref().map(TriangleCaster::memory));
         memory.items.extend(self.lists.iter().flat_map(Lists::memory));
-        memory.items.extend(self.nearest.iter().flat_map(NearestTriangles::memory));
+        memory.items.extend(self.ranked.iter().flat_map(RankedTriangles::memory));
         memory
     }
 
@@ -493,7 +493,7 @@ impl ShadowMap {
     #[must_use]
     pub fn explain(&self) -> Vec<String> {
         let triangles = self.lists.as_ref().map(Lists::explain);
-        let triangles = triangles.or_else(|| self.nearest.as_ref().map(NearestTriangles::explain));
+        let triangles = triangles.or_else(|| self.ranked.as_ref().map(RankedTriangles::explain));
         explain::lines(self.technique.as_ref(), &self.capabilities, &self.textures, triangles)
     }
 }

@@ -7,7 +7,7 @@
 
 use crate::{
     capabilities::Capabilities,
-    technique::{Binding, Caster, Constant, Coverage, DepthSpace, Family, List, Map, Nearest, Technique},
+    technique::{Binding, Caster, Constant, Coverage, DepthSpace, Family, List, Map, Ranked, Technique},
 };
 use std::fmt::Write;
 
@@ -188,20 +188,20 @@ fn wgsl_type(binding: Binding, maps: &[Map]) -> &'static str {
         Binding::Map(_) | Binding::List(List::Corners) => "texture_2d_array<f32>",
         Binding::List(List::Ranges | List::Numbers) => "texture_2d_array<u32>",
         Binding::Sampler => "sampler",
-        Binding::Nearest(Nearest::Keys) => "array<u32>",
-        Binding::Nearest(Nearest::Corners) => "array<vec4f>",
+        Binding::Ranked(Ranked::Keys) => "array<u32>",
+        Binding::Ranked(Ranked::Corners) => "array<vec4f>",
     }
 }
 
-/// What keys of triangles are linear by.
-const NEAR_OVER_FAR: &str =
-    "fn shadow_near_over_far(view: u32) -> f32 { return shadow.views[view].near_over_far; }\n";
-
-/// The function that reads a buffer, which WGSL cannot pass on, and its result.
-fn accessor(nearest: Nearest) -> (&'static str, &'static str) {
-    match nearest {
-        Nearest::Keys => ("shadow_key", "u32"),
-        Nearest::Corners => ("shadow_corner", "vec3f"),
+/// The functions through which a technique reads a buffer, which WGSL cannot pass on: signature, result,
+/// and what they return where the buffer is called `BUFFER`.
+fn accessors(ranked: Ranked) -> &'static [[&'static str; 3]] {
+    match ranked {
+        Ranked::Keys => &[
+            ["fn shadow_key(i: u32)", "u32", "BUFFER[i]"],
+            ["fn shadow_near_over_far(view: u32)", "f32", "shadow.views[view].near_over_far"],
+        ],
+        Ranked::Corners => &[["fn shadow_corner(i: u32)", "vec3f", "BUFFER[i].xyz"]],
     }
 }
 
@@ -225,22 +225,16 @@ pub(crate) fn receiver(
         let _ = writeln!(glue, "    setting_{uniform}: f32,");
     }
     let _ = writeln!(glue, "}}\n@group({group}) @binding(0) var<uniform> shadow: ShadowUniforms;");
-    if matches!(technique.caster(), Caster::Nearest { .. }) {
-        glue += NEAR_OVER_FAR;
-    }
     let mut arguments = String::new();
     let maps = technique.maps(device).unwrap_or_default();
     for (i, binding) in technique.bindings().into_iter().enumerate() {
-        if let Binding::Nearest(nearest) = binding {
-            let (function, result) = accessor(nearest);
-            let xyz = if nearest == Nearest::Corners { ".xyz" } else { "" };
-            let _ = writeln!(
-                glue,
-                "@group({group}) @binding({}) var<storage, read> shadow_binding_{i}: {};\n\
-                 fn {function}(i: u32) -> {result} {{ return shadow_binding_{i}[i]{xyz}; }}",
-                i + 1,
-                wgsl_type(binding, &maps)
-            );
+        if let Binding::Ranked(ranked) = binding {
+            let (ty, name) = (wgsl_type(binding, &maps), format!("shadow_binding_{i}"));
+            let _ = writeln!(glue, "@group({group}) @binding({}) var<storage, read> {name}: {ty};", i + 1);
+            for [signature, result, value] in accessors(ranked) {
+                let value = value.replace("BUFFER", &name);
+                let _ = writeln!(glue, "{signature} -> {result} {{ return {value}; }}");
+            }
             continue;
         }
         let _ = writeln!(
@@ -315,7 +309,7 @@ pub(crate) enum TrianglePass {
     Indexed(Coverage),
 }
 
-/// The pass that draws triangles for [`Caster::Triangles`] or [`Caster::Lists`]. `cutout` is the
+/// The pass that draws triangles for casters that are not [`Caster::Depth`]. `cutout` is the
 /// caller's WGSL that leaves parts of them out.
 pub(crate) fn triangles(
     technique: &dyn Technique,
@@ -325,7 +319,7 @@ pub(crate) fn triangles(
 ) -> String {
     let mut shader = match technique.caster() {
         // Nothing that it looks up is bound here.
-        Caster::Nearest { .. } => {
+        Caster::Ranked { .. } => {
             let mut shader = ShaderText::file("key", &[]);
             shader.need("raster", &[]);
             shader
@@ -337,7 +331,7 @@ pub(crate) fn triangles(
     let indexed = matches!(pass, TrianglePass::Indexed(_));
     let entry = match technique.caster() {
         Caster::Lists { .. } => [include_str!("shader/lists.wgsl.in"), ""],
-        Caster::Nearest { .. } => [include_str!("shader/nearest.wgsl.in"), ""],
+        Caster::Ranked { .. } => [include_str!("shader/ranked.wgsl.in"), ""],
         _ if indexed => [TRIANGLES, include_str!("shader/triangles/indexed.wgsl.in")],
         Caster::Depth | Caster::Triangles(_) => [TRIANGLES, include_str!("shader/triangles/pulled.wgsl.in")],
     };

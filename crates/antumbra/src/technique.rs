@@ -76,24 +76,25 @@ pub enum Caster {
     Lists {
         /// Triangles per texel that there is room for, on average over the map.
         per_texel: u32,
-        /// Triangles of one view that there is room for; those that a spot cuts count twice.
+        /// Numbers of triangles that there is room for in a view, at least 1; a spot's triangles take two.
         triangles: u32,
     },
     /// Some of the triangles that touch each texel, drawn once from
-    /// [`CasterMesh`](crate::CasterMesh)es by the library's pipelines: [`Binding::Nearest`]. They are those
+    /// [`CasterMesh`](crate::CasterMesh)es by the library's pipelines: [`Binding::Ranked`]. They are those
     /// that show their far side to the light, and then those that show the near one, from the light on.
-    /// Beside them the depth of the texels' centres ([`Binding::Depth`]).
-    Nearest {
-        /// Triangles per texel.
+    /// Sides are told by winding: where all triangles of an object are wound the wrong way around they are
+    /// swapped, which does no harm. Beside them the depth of the texels' centres ([`Binding::Depth`]).
+    Ranked {
+        /// Triangles per texel, at least 1.
         keeps: u32,
-        /// Triangles of one view that there is room for; those that a spot cuts count twice.
+        /// Numbers of triangles that there is room for in a view, at least 1; a spot's triangles take two.
         triangles: u32,
     },
 }
 
-/// A buffer that [`Caster::Nearest`] leaves. The technique's WGSL reads it through a function.
+/// A buffer that [`Caster::Ranked`] leaves. The technique's WGSL reads it through a function.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Nearest {
+pub enum Ranked {
     /// `shadow_key(i: u32) -> u32`: of each texel the keys of its triangles, as in `key.wgsl`, the
     /// greatest first, 0 where there are fewer; with `shadow_near_over_far(view: u32) -> f32`, 1 for the
     /// sun, which makes depth linear. Those of texel (x, y) begin at `keeps` · ((view ·
@@ -104,8 +105,8 @@ pub enum Nearest {
     Corners,
 }
 
-impl Nearest {
-    /// Bits of the numbers of that many triangles in keys.
+impl Ranked {
+    /// Bits of the numbers of that many triangles in keys, 1 to 30.
     #[must_use]
     pub fn number_bits(triangles: u32) -> u32 {
         triangles.clamp(2, 1 << 30).next_power_of_two().ilog2()
@@ -191,7 +192,7 @@ pub enum Combine {
     LogMean(f32),
 }
 
-/// A texture or sampler that the technique's WGSL function takes, in parameter order.
+/// A texture or sampler that the technique's WGSL function takes, in parameter order, or a buffer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Binding {
     /// `texture_depth_2d_array`: the depth of the casters, one layer per view, as rasterised.
@@ -203,8 +204,8 @@ pub enum Binding {
     Map(usize),
     /// A texture of the lists of [`Caster::Lists`].
     List(List),
-    /// A buffer of [`Caster::Nearest`]; no parameter.
-    Nearest(Nearest),
+    /// A buffer of [`Caster::Ranked`]; no parameter.
+    Ranked(Ranked),
     /// `sampler` for the maps: clamped, linear where the device can filter them.
     Sampler,
 }

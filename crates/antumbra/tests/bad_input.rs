@@ -206,9 +206,15 @@ fn lists(gpu: &Gpu) {
     says(&refusal(gpu, &exact(0, 1), SIZE), &["exact.per_texel", "0", "1 to 64"]);
     says(&refusal(gpu, &Dpm { keeps: 33, ..Dpm::default() }, SIZE), &["dpm.keeps", "33", "1 to 32"]);
     says(&refusal(gpu, &exact(1, 0), SIZE), &["exact.triangles", "0", "1 to 16777216"]);
-    let error =
-        ShadowMap::from_depth(&gpu.device, &Exact::default(), &texture(gpu, |_| ()), SIZE).unwrap_err();
-    assert!(matches!(error, Unsupported::Triangles { .. }), "{error}");
+    for technique in [&Exact::default() as &dyn Technique, &Dpm::default()] {
+        let error = ShadowMap::from_depth(&gpu.device, technique, &texture(gpu, |_| ()), SIZE).unwrap_err();
+        assert!(matches!(error, Unsupported::Triangles { .. }), "{error}");
+    }
+    let (features, limits) = (wgpu::Features::empty(), wgpu::Limits::default());
+    let few = wgpu::Limits { max_storage_buffers_per_shader_stage: 4, ..limits };
+    antumbra_testing::gpu_with(features, few).unwrap().checked(|gpu| {
+        says(&refusal(gpu, &Dpm::default(), SIZE), &["dpm", "5 storage buffers in a stage (4 are possible)"]);
+    });
     let least = antumbra_testing::gpu_with(wgpu::Features::empty(), wgpu::Limits::default()).unwrap();
     least.checked(|gpu| {
         let message = refusal(gpu, &exact(64, 1), Options::from(Size::square(4096)).views(2));

@@ -147,7 +147,7 @@ fn darkens_with_depth(gpu: &Gpu, technique: &dyn Technique) -> Result<(), String
     // Silhouettes of triangles that are not kept are guesses, which differ with what is in front.
     let centred = |r: Receiver| match technique.caster() {
         Caster::Depth => r,
-        Caster::Lists { .. } | Caster::Nearest { .. } => r,
+        Caster::Lists { .. } | Caster::Ranked { .. } => r,
         Caster::Triangles(_) => Receiver { uv: ((r.uv * 64.0).floor() + 0.5) / 64.0, ..r },
     };
     let deeper = |r: Receiver| (0..STEPS).map(move |i| Receiver { depth: i as f32 / STEPS as f32, ..r });

@@ -59,11 +59,11 @@ impl CasterView {
     }
 }
 
-/// Triangles that cast shadows for a technique whose caster is [`Caster::Triangles`]: positions and
+/// Triangles that cast shadows for a technique whose caster is not [`Caster::Depth`]: positions and
 /// indices that the library's vertex shader reads from storage buffers, so that it sees whole
 /// triangles.
 ///
-/// [`Caster::Triangles`]: crate::technique::Caster::Triangles
+/// [`Caster::Depth`]: crate::technique::Caster::Depth
 #[derive(Debug)]
 pub struct CasterMesh {
     place: wgpu::Buffer,

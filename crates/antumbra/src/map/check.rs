@@ -3,7 +3,7 @@
 use super::{
     Options,
     lists::{ROW, Room},
-    nearest::NearestRoom,
+    ranked::RankedRoom,
     uniforms,
 };
 use crate::{
@@ -66,11 +66,11 @@ pub(super) fn caster(
     let name = technique.page().name.to_string();
     match (technique.caster(), depth, maps) {
         (Caster::Depth, ..) => Ok(()),
-        (Caster::Triangles(_) | Caster::Lists { .. } | Caster::Nearest { .. }, Some(_), _) => {
+        (Caster::Triangles(_) | Caster::Lists { .. } | Caster::Ranked { .. }, Some(_), _) => {
             Err(Unsupported::Triangles { technique: name })
         }
-        (Caster::Lists { .. } | Caster::Nearest { .. }, None, _) if technique.jitter().len() == 1 => Ok(()),
-        (Caster::Lists { .. } | Caster::Nearest { .. }, None, _) => Err(Unsupported::Feature {
+        (Caster::Lists { .. } | Caster::Ranked { .. }, None, _) if technique.jitter().len() == 1 => Ok(()),
+        (Caster::Lists { .. } | Caster::Ranked { .. }, None, _) => Err(Unsupported::Feature {
             technique: name,
             what: "a single caster pass".into(),
             instead: "describe no more in Technique::jitter".into(),
@@ -118,13 +118,27 @@ pub(super) fn lists(device: &wgpu::Device, technique: &dyn Technique, room: Room
     Ok(())
 }
 
-/// Whether the nearest triangles fit.
-pub(super) fn nearest(
+/// Storage buffers of the fragments that rank triangles: three of their own, two of a mesh.
+const RANKED_BUFFERS: u32 = 5;
+
+/// Whether the first triangles of texels fit.
+pub(super) fn ranked(
     device: &wgpu::Device,
     technique: &dyn Technique,
-    room: NearestRoom,
+    room: RankedRoom,
 ) -> Result<(), Unsupported> {
-    let max = device.limits().max_storage_buffer_binding_size;
+    let limits = device.limits();
+    let max = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
+    let name = technique.page().name.to_string();
+    if room.keeps == 0 || room.triangles == 0 {
+        let what = format!("{} triangles per texel, of {}", room.keeps, room.triangles);
+        return Err(Unsupported::Feature { technique: name, what, instead: "keep at least one".into() });
+    }
+    let (found, needed) = (limits.max_storage_buffers_per_shader_stage, RANKED_BUFFERS);
+    if found < needed {
+        let what = format!("{needed} storage buffers in a stage ({found} are possible)");
+        return Err(Unsupported::Feature { technique: name, what, instead: "take another technique".into() });
+    }
     let refused = |bytes: u64, of: &str, instead: String| {
         let what = format!("a storage binding of {bytes} bytes for {of} ({max} are possible)");
         Err(Unsupported::Feature { technique: technique.page().name.into(), what, instead })

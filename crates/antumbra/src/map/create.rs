@@ -18,7 +18,11 @@ pub(super) fn bind<'a>(
 ) -> BindGroup {
     let entries: Vec<_> =
         (0..).zip(resources).map(|(binding, resource)| BindGroupEntry { binding, resource }).collect();
-    device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some("lists"), layout, entries: &entries })
+    device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some("numbered triangles"),
+        layout,
+        entries: &entries,
+    })
 }
 
 pub(super) const UNIFORM: BindingType = BindingType::Buffer {
@@ -43,13 +47,13 @@ pub(super) fn layout(device: &wgpu::Device, types: &[(ShaderStages, BindingType)
             count: None,
         })
         .collect();
-    let descriptor = wgpu::BindGroupLayoutDescriptor { label: Some("lists"), entries: &entries };
+    let descriptor = wgpu::BindGroupLayoutDescriptor { label: Some("numbered triangles"), entries: &entries };
     device.create_bind_group_layout(&descriptor)
 }
 
 pub(super) fn module(device: &wgpu::Device, shader: &str) -> wgpu::ShaderModule {
     device.create_shader_module(wgpu::ShaderModuleDescriptor {
-        label: Some("shadow lists"),
+        label: Some("numbered triangles"),
         source: wgpu::ShaderSource::Wgsl(shader.into()),
     })
 }
@@ -59,12 +63,13 @@ pub(super) fn pipeline_layout(
     groups: &[Option<&BindGroupLayout>],
 ) -> wgpu::PipelineLayout {
     device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        label: Some("shadow lists"),
+        label: Some("numbered triangles"),
         bind_group_layouts: groups,
         immediate_size: 0,
     })
 }
 
+/// A pipeline that draws triangles; it writes depth unless that compares as `Always`.
 pub(super) fn compile(
     device: &wgpu::Device,
     shader: &str,
@@ -76,7 +81,7 @@ pub(super) fn compile(
     let mesh = caster::mesh_layout(device);
     let groups: Vec<_> = [own, &mesh].into_iter().chain(user.iter().copied()).map(Some).collect();
     device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some("shadow lists"),
+        label: Some("numbered triangles"),
         layout: Some(&pipeline_layout(device, &groups)),
         vertex: wgpu::VertexState {
             module: &module,

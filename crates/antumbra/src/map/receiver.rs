@@ -2,7 +2,7 @@
 
 use super::{
     lists::Lists,
-    nearest::NearestTriangles,
+    ranked::RankedTriangles,
     textures::{self, Textures},
     uniforms::{self, Uniforms},
 };
@@ -19,7 +19,7 @@ pub(super) fn group(
     textures: &Textures,
     uniforms: &Uniforms,
     lists: Option<&Lists>,
-    nearest: Option<&NearestTriangles>,
+    ranked: Option<&RankedTriangles>,
 ) -> (wgpu::BindGroupLayout, wgpu::BindGroup) {
     use wgpu::{BindingResource, BindingType, SamplerBindingType, TextureSampleType};
     let texture = |sample_type| BindingType::Texture {
@@ -58,14 +58,14 @@ pub(super) fn group(
                 };
                 (texture(kind), BindingResource::TextureView(view))
             }
-            Binding::Nearest(buffer) => {
-                let Some(nearest) = nearest else { continue };
+            Binding::Ranked(buffer) => {
+                let Some(ranked) = ranked else { continue };
                 let ty = BindingType::Buffer {
                     ty: wgpu::BufferBindingType::Storage { read_only: true },
                     has_dynamic_offset: false,
                     min_binding_size: None,
                 };
-                (ty, nearest.buffer(*buffer).as_entire_binding())
+                (ty, ranked.buffer(*buffer).as_entire_binding())
             }
             Binding::Sampler => {
                 let kind =

@@ -6,7 +6,9 @@ fn key_of(near: bool, depth: f32, number: u32, bits: u32) -> u32 {
 
 /// Linear depth 0 to 1 in whole steps, rounded down; what lies outside is moved there.
 fn key_step(depth: f32, bits: u32) -> u32 {
-    return u32(clamp(depth, 0.0, 1.0) * f32((1u << (31u - bits)) - 2u));
+    let most = (1u << (31u - bits)) - 2u;
+    // Few bits of numbers leave more steps than a float counts.
+    return min(u32(clamp(depth, 0.0, 1.0) * f32(most)), most);
 }
 
 /// Number of the triangle.

@@ -12,7 +12,7 @@ use naga::{
 /// Everything and nothing of what devices may lack.
 fn devices() -> [Capabilities; 2] {
     let lesser = Capabilities { features: wgpu::Features::empty(), limits: wgpu::Limits::default() };
-    let full = Capabilities { features: wgpu::Features::FLOAT32_FILTERABLE, ..lesser.clone() };
+    let full = Capabilities { features: Capabilities::OPTIONAL_FEATURES, ..lesser.clone() };
     [full, lesser]
 }
 
@@ -189,13 +189,10 @@ fn every_technique_validates_with_its_needs() {
             let mut text = ShaderText::library(technique.as_ref(), &device).text();
             // Buffers are read through functions that come with them.
             for binding in technique.bindings() {
-                if let Binding::Nearest(nearest) = binding {
-                    let (name, result) = accessor(nearest);
-                    text += &format!("fn {name}(i: u32) -> {result} {{ return {result}(); }}\n");
+                let Binding::Ranked(ranked) = binding else { continue };
+                for [signature, result, _] in accessors(ranked) {
+                    text += &format!("{signature} -> {result} {{ return {result}(); }}\n");
                 }
-            }
-            if matches!(technique.caster(), Caster::Nearest { .. }) {
-                text += "fn shadow_near_over_far(view: u32) -> f32 { return 1.0; }\n";
             }
             let spec = technique::spec(technique.as_ref());
             let module = validate(&text).unwrap_or_else(|e| panic!("{spec}: {e}"));
@@ -223,7 +220,7 @@ fn every_composed_receiver_and_pass_validates() {
                 use TrianglePass::{Any, Indexed, Pulled};
                 let both = [Coverage::Touched, Coverage::Centre];
                 let pulled = both.into_iter().flat_map(|c| [Pulled(c, false), Pulled(c, true)]);
-                let lists = matches!(technique.caster(), Caster::Lists { .. } | Caster::Nearest { .. });
+                let lists = matches!(technique.caster(), Caster::Lists { .. } | Caster::Ranked { .. });
                 let indexed = both.into_iter().filter(|_| !lists).map(Indexed);
                 let plain = pulled.chain(indexed).chain([Any]).map(|pass| (None, pass));
                 for (cutout, pass) in plain.chain([(Some(cutout), Any)]) {

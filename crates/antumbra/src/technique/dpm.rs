@@ -2,15 +2,15 @@
 //! intersect the receiver's ray with those.
 //!
 //! As published, a texel keeps what comes first, and more is lost. Here an atomic maximum per entry leaves
-//! the same triangles in the same order whatever order they are drawn in: first far sides, which lie on
+//! the same triangles in the same order whatever order their fragments come in: first far sides, which lie on
 //! no lit receiver and of closed casters make the whole shadow alone, then near sides; each from the light
-//! on. Where less than all that touch a texel were kept and none of them is in the way, the centres of the
+//! on, by linear depth in steps of the bits that numbers leave. Where less than all that touch a texel were kept and none of them is in the way, the centres of the
 //! texels around decide. That is where edges fray: where many small triangles share a texel.
 //!
 //! Story 2015, "Hybrid Ray-Traced Shadows" (Game Developers Conference); the k-buffer of Bavoil et al.
 //! 2007.
 
-use super::{BiasTerms, Binding, Caster, Class, Constant, DepthSpace, Family, Map, Nearest, Page, Technique};
+use super::{BiasTerms, Binding, Caster, Class, Constant, DepthSpace, Family, Map, Ranked, Page, Technique};
 use crate::{
     capabilities::Capabilities,
     error::Unsupported,
@@ -18,14 +18,14 @@ use crate::{
 };
 
 /// Deep primitive map. 4 bytes per texel and triangle kept, 4 for the depth of its centre, 48 for every
-/// triangle of the scene; 4 lookups for every triangle kept until one shadows or all others lie deeper, up
-/// to 10 more where some are missing.
+/// triangle of the scene; 4 lookups for every triangle kept until one shadows, and up to 10 more where
+/// some are missing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Dpm {
     /// Triangles per texel.
     pub keeps: u32,
-    /// Triangles of one view that there is room for, those that a spot cuts twice.
+    /// Triangles of one view that there is room for, half as many under a spot, which may cut them.
     pub triangles: u32,
     /// Positions along one side of a pixel at which shadows are asked, 1 to 4: those in its corners, and
     /// where these differ all.
@@ -44,7 +44,7 @@ impl Technique for Dpm {
             name: "dpm",
             title: "Deep primitive map",
             family: Family::Geometry,
-            paper: "Story 2015, with the nearest triangles",
+            paper: "Story 2015, with triangles ranked",
         }
     }
     fn parameters(&mut self) -> Vec<Parameter<'_>> {
@@ -73,10 +73,10 @@ impl Technique for Dpm {
         Ok(Vec::new())
     }
     fn caster(&self) -> Caster {
-        Caster::Nearest { keeps: self.keeps, triangles: self.triangles }
+        Caster::Ranked { keeps: self.keeps, triangles: self.triangles }
     }
     fn bindings(&self) -> Vec<Binding> {
-        vec![Binding::Depth, Binding::Nearest(Nearest::Keys), Binding::Nearest(Nearest::Corners)]
+        vec![Binding::Depth, Binding::Ranked(Ranked::Keys), Binding::Ranked(Ranked::Corners)]
     }
     fn wgsl(&self) -> &'static str {
         include_str!("dpm.wgsl")
@@ -85,7 +85,7 @@ impl Technique for Dpm {
         vec![
             Constant::Count("dpm_keeps", self.keeps),
             Constant::Count("dpm_triangles", self.triangles),
-            Constant::Count("dpm_bits", Nearest::number_bits(self.triangles)),
+            Constant::Count("dpm_bits", Ranked::number_bits(self.triangles)),
             Constant::Count("dpm_samples", self.samples),
         ]
     }
@@ -103,9 +103,9 @@ impl Technique for Dpm {
     fn reach_texels(&self) -> f32 {
         1.5
     }
-    /// Of a full texel.
+    /// Of a full texel, with its centre.
     fn lookups(&self) -> u32 {
-        4 * self.keeps
+        4 * self.keeps + 1
     }
     fn classes(&self) -> &'static [Class] {
         const CLASSES: [Class; 2] = [

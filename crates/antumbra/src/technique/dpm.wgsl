@@ -12,7 +12,7 @@ const dpm_samples: u32 = 1;
 /// them is: less than half, since the triangles that were kept cover most of a shadow.
 const dpm_open: f32 = 0.28;
 
-/// Class of a receiver that is behind no triangle of its texel, and of these none is missing.
+/// Class of a receiver that is behind no triangle.
 const dpm_lit: u32 = 0;
 /// Class of a receiver that is behind a triangle of its texel.
 const dpm_shadowed: u32 = 1;
@@ -36,7 +36,7 @@ fn dpm_class_at(casters: texture_depth_2d_array, point: vec2f, view: u32, depth:
     let size = textureDimensions(casters);
     let texel = min(vec2u(max(point, vec2f(0.0))), size - 1u);
     let start = ((view * size.y + texel.y) * size.x + texel.x) * dpm_keeps;
-    let step = key_step(raster_linear(depth, shadow_near_over_far(view)), dpm_bits);
+    let step = key_step(raster_linear(clamp(depth, 0.0, 1.0), shadow_near_over_far(view)), dpm_bits);
     let ray = vec3f(point, 0.0);
     var key = 0u;
     for (var i = start; i < start + dpm_keeps; i += 1u) {
@@ -45,6 +45,10 @@ fn dpm_class_at(casters: texture_depth_2d_array, point: vec2f, view: u32, depth:
             return dpm_lit;
         }
         if key_deeper(key, step, dpm_bits) {
+            // Behind a near side are only near sides that lie deeper.
+            if key_is_near(key) {
+                return dpm_lit;
+            }
             continue;
         }
         let at = 3u * (view * dpm_triangles + key_number(key, dpm_bits));
@@ -52,13 +56,8 @@ fn dpm_class_at(casters: texture_depth_2d_array, point: vec2f, view: u32, depth:
             return dpm_shadowed;
         }
     }
-    let near = key_is_near(key);
-    let deeper = key_deeper(key, step, dpm_bits);
-    if near && deeper {
-        return dpm_lit;
-    }
     let before = depth - dot(abs(gain), vec2f(1.0));
-    let complete = (near || deeper) && !dpm_occluded(casters, vec2i(texel), point, view, before, gain);
+    let complete = (key_is_near(key) || key_deeper(key, step, dpm_bits)) && !dpm_occluded(casters, vec2i(texel), point, view, before, gain);
     return select(dpm_uncertain, dpm_lit, complete);
 }
 

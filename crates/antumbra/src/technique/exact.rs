@@ -25,7 +25,7 @@ use crate::{
 pub struct Exact {
     /// Triangles per texel that there is room for, on average over the map.
     pub per_texel: u32,
-    /// Triangles of one view that there is room for, those that a spot cuts twice.
+    /// Triangles of one view that there is room for, half as many under a spot, which may cut them.
     pub triangles: u32,
 }
 

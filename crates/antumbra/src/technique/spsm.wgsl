@@ -208,6 +208,7 @@ fn spsm_class(map: texture_2d_array<u32>, uv: vec2f, view: u32, depth: f32, plan
     }
     return select(spsm_uncertain, spsm_lit, found == spsm_around);
 }
+
 /// Share of the light around a point, smoothed over the nine texels around it, by their centres: what an
 /// ordinary shadow map knows.
 fn spsm_share(map: texture_2d_array<u32>, point: vec2f, view: u32, depth: f32, gain: vec2f) -> f32 {

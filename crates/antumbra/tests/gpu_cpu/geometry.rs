@@ -234,7 +234,7 @@ pub(crate) fn spsm_tangents(gpu: &Gpu) {
 }
 
 /// Quadratic B-spline, on places up to two texels away.
-pub(crate) fn spsm_weighs_centres(gpu: &Gpu) {
+pub(crate) fn splines_weigh_centres(gpu: &Gpu) {
     let rows = rows(31, |r| row([r.range(-2.0, 2.0), r.range(-2.0, 2.0)]));
     let found =
         run::<1>(gpu, &functions(gpu, spsm::Packing::Edges), "put(0u, spline_weight(take2(0u)));", &rows);

@@ -146,6 +146,40 @@ pub(crate) fn fine_meshes(gpu: &Gpu) {
     }
 }
 
+/// Below a single sheet, whichever side it shows, and before far sides that fill texels it is dark, and lit
+/// beside it, from a texel off its edge on.
+pub(crate) fn sheets_count_among_closed_casters(gpu: &Gpu) {
+    let corners = [Vec2::new(4.0, 2.0), Vec2::new(33.0, 60.0), Vec2::new(4.0, 60.0)];
+    let beyond: Vec<Vec3> = disc().into_iter().map(|p| p.with_z(0.95)).collect();
+    let turned = beyond.chunks_exact(3).flat_map(|t| [t[0], t[2], t[1]]);
+    let slab: Vec<Vec3> = beyond.iter().copied().chain(turned).collect();
+    let edge = (corners[1] - corners[0]).normalize();
+    let mut random = Random::new(38);
+    let points: Vec<Vec2> = (0..4000)
+        .map(|_| CENTRE + 12.0 * Vec2::new(random.range(-1.0, 1.0), random.range(-1.0, 1.0)))
+        .filter(|p| edge.perp_dot(*p - corners[0]).abs() > 1.0)
+        .collect();
+    let wrong = |technique: &dyn Technique| -> usize {
+        let count = |turned: bool| {
+            let mut sheet = corners.map(|p| placed(p, 0.3));
+            if turned {
+                sheet.swap(1, 2);
+            }
+            let casters: Vec<Vec3> = sheet.into_iter().chain(slab.iter().copied()).collect();
+            let found = answers(gpu, technique, &casters, None, &receivers(&points, 1e-4));
+            let dark = |p: &Vec2| edge.perp_dot(*p - corners[0]) > 0.0;
+            points.iter().zip(found).filter(|(p, f)| (*f < 0.5) != dark(p)).count()
+        };
+        count(false) + count(true)
+    };
+    for spec in ["dpm", "dpm.keeps=2", "exact"] {
+        assert_eq!(wrong(&Broken::new(spec)), 0, "{spec}");
+    }
+    let asks = "&& !dpm_occluded(casters, vec2i(texel), point, view, before, gain)";
+    let blind = wrong(&Broken::saying("dpm.keeps=2", asks, ""));
+    assert!(blind > 50, "{blind} without asking the centre");
+}
+
 /// Pixels on the edge of a large triangle, which its own texels are certain of, get the share of their
 /// area that is beside it.
 pub(crate) fn edges_are_smooth(gpu: &Gpu) {

@@ -1,10 +1,13 @@
-//! The nearest triangles of texels: which ones are kept, in which order, and where their corners are.
+//! The first triangles of texels: which ones are kept, in which order, and where their corners are.
 
-use super::lists::{MAP, TEXELS, TRIANGLES, drawn, on_map, overlapping, soup, views};
+use super::{
+    lists::{MAP, TEXELS, TRIANGLES, drawn, on_map, overlapping, soup, views},
+    row, rows, run,
+};
 use crate::common::{Random, caster_mesh, compute};
-use antumbra::{Dpm, Fit, Light, Options, ShadowMap, Size, technique::Nearest};
+use antumbra::{Dpm, Fit, Light, Options, ShadowMap, Size, technique::Ranked};
 use antumbra_testing::Gpu;
-use glam::{DVec2, Vec3};
+use glam::{DVec2, Mat4, Vec3};
 use std::collections::BTreeSet;
 
 /// What a key says: near side seen, step of depth, number. The order of these is that of keys.
@@ -61,7 +64,7 @@ fn key(triangle: &[Vec3; 3], number: u32, texel: usize) -> Key {
     let slope = -normal.truncate() / normal.z;
     let plane = a.z + slope.dot(centre - a.truncate()) - 0.5 * (slope.x.abs() + slope.y.abs());
     let least = plane.clamp(a.z.min(b.z).min(c.z), a.z.max(b.z).max(c.z));
-    let steps = (1u32 << (31 - Nearest::number_bits(TRIANGLES))) - 2;
+    let steps = (1u32 << (31 - Ranked::number_bits(TRIANGLES))) - 2;
     (normal.z < 0.0, (least * f64::from(steps)) as u32, number)
 }
 
@@ -132,8 +135,8 @@ pub(crate) fn triangles_without_room_are_left_out(gpu: &Gpu) {
     assert!(held.len() > 20 && held.iter().all(|n| *n < 50), "{held:?}");
     let memory = ShadowMap::new(&gpu.device, &Dpm::default(), Options::from(MAP).views(2)).unwrap().memory();
     let bytes = |name: &str| memory.items.iter().find(|i| i.name == name).map_or(0, |i| i.bytes);
-    assert_eq!(bytes("nearest triangles"), 2 * 4 * 4 * TEXELS as u64);
-    assert_eq!(bytes("nearest corners"), 2 * 48 * (1 << 19));
+    assert_eq!(bytes("ranked triangles"), 2 * 4 * 4 * TEXELS as u64);
+    assert_eq!(bytes("ranked corners"), 2 * 48 * (1 << 19));
 }
 
 /// The depth of texels' centres is that of the nearest triangle there, also of triangles that reach behind
@@ -191,4 +194,50 @@ pub(crate) fn centres_have_their_depth(gpu: &Gpu) {
     }
     assert!(cut > 1000 && empty > 1000, "{cut} of triangles that reach behind, {empty} without any");
     assert!(wrong < 10, "{wrong} texels have another depth");
+}
+
+/// Side, depth and number of keys with few and many bits for numbers, also at the far plane.
+pub(crate) fn keys_keep_what_they_are_of(gpu: &Gpu) {
+    let inputs = |r: &mut Random| {
+        let bits = 1 + (23.0 * r.unit()) as u32;
+        let depth = if r.unit() < 0.2 { 1.0 } else { r.range(-0.2, 1.2) };
+        let number = (r.unit() * ((1 << bits) - 1) as f32) as u32;
+        row([bits as f32, depth, number as f32, f32::from(r.unit() < 0.5)])
+    };
+    let rows = rows(39, inputs);
+    let body = "
+        let bits = u32(take(0u));
+        let key = key_of(take(3u) == 1.0, take(1u), u32(take(2u)), bits);
+        let step = (~key & ~key_near) >> bits;
+        put(0u, f32(key_is_near(key)));
+        put(1u, f32(key_number(key, bits)));
+        put(2u, f32(step) / f32((1u << (31u - bits)) - 2u));
+        put(3u, f32(key == 0u || key_deeper(key, key_step(take(1u), bits), bits)));";
+    let shadows = ShadowMap::new(&gpu.device, &Dpm::default(), MAP).unwrap();
+    let found = run::<4>(gpu, &shadows, body, &rows);
+    for (r, found) in rows.iter().zip(found) {
+        let step = 1.0 / (2f32.powi(31 - r[0] as i32) - 2.0);
+        assert_eq!([found[0], found[1], found[3]], [r[3], r[2], 0.0], "{r:?}");
+        assert!((found[2] - r[1].clamp(0.0, 1.0)).abs() <= step + 1e-6, "{r:?}: {found:?}");
+    }
+}
+
+/// The same triangle is seen from its other side where its object is mirrored.
+pub(crate) fn mirrored_objects_show_their_other_side(gpu: &Gpu) {
+    let corners = [Vec3::new(-0.8, -0.7, 0.4), Vec3::new(0.9, -0.6, 0.5), Vec3::new(0.1, 0.8, 0.6)];
+    let seen = |scale: f32| {
+        let technique = Dpm { keeps: 1, triangles: 1, samples: 1 };
+        let mut shadows = ShadowMap::new(&gpu.device, &technique, Options::from(MAP)).unwrap();
+        shadows.prepare(&gpu.queue, &views()[..1]).unwrap();
+        let mesh = caster_mesh(gpu, &corners.map(|p| p * Vec3::new(scale, 1.0, 1.0)));
+        mesh.place(&gpu.queue, Mat4::from_scale(Vec3::new(scale, 1.0, 1.0)));
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        shadows.encode(&mut encoder, |view, pass| mesh.draw(view, pass));
+        gpu.queue.submit([encoder.finish()]);
+        let keys = found(gpu, &shadows, 1, 0, 1).0.concat();
+        assert!(keys.len() > 300, "{} texels", keys.len());
+        assert!(keys.iter().all(|key| key.0 == keys[0].0), "both sides at once");
+        keys[0].0
+    };
+    assert_ne!(seen(1.0), seen(-1.0));
 }

@@ -1,8 +1,8 @@
-//! The nearest triangles that touch each texel, for [`Caster::Nearest`]: an atomic maximum for each entry of
+//! The nearest triangles that touch each texel, for [`Caster::Ranked`]: an atomic maximum for each entry of
 //! a texel passes the lesser key on to the next entry, so that all end in order, whatever order they are
 //! drawn in.
 //!
-//! [`Caster::Nearest`]: crate::technique::Caster::Nearest
+//! [`Caster::Ranked`]: crate::technique::Caster::Ranked
 
 use super::{
     Probe,
@@ -15,7 +15,7 @@ use crate::{
     capabilities::Capabilities,
     light::{Size, View},
     shader::{self, TrianglePass},
-    technique::{Coverage, Nearest, Technique},
+    technique::{Coverage, Ranked, Technique},
 };
 use std::num::NonZeroU64;
 use wgpu::{
@@ -28,14 +28,14 @@ const CORNERS: u64 = 48;
 
 /// What a map has room for.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct NearestRoom {
+pub(super) struct RankedRoom {
     pub(super) size: Size,
     pub(super) views: u32,
     pub(super) keeps: u32,
     pub(super) triangles: u32,
 }
 
-impl NearestRoom {
+impl RankedRoom {
     /// Bytes of the keys of a view.
     fn view_bytes(&self) -> u64 {
         4 * u64::from(self.size.width) * u64::from(self.size.height) * u64::from(self.keeps)
@@ -52,10 +52,10 @@ impl NearestRoom {
     }
 }
 
-/// Rust side of `NearestPass` in `nearest.wgsl.in`.
+/// Rust side of `RankedPass` in `ranked.wgsl.in`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
-struct NearestPass {
+struct RankedPass {
     view: u32,
     keeps: u32,
     triangles: u32,
@@ -64,10 +64,10 @@ struct NearestPass {
 
 /// Pipelines and buffers.
 #[derive(Debug)]
-pub(super) struct NearestTriangles {
+pub(super) struct RankedTriangles {
     /// Under the sun, under a spot.
     pipelines: [RenderPipeline; 2],
-    room: NearestRoom,
+    room: RankedRoom,
     views: Buffer,
     passes: Buffer,
     stride: u64,
@@ -79,11 +79,11 @@ pub(super) struct NearestTriangles {
     groups: Vec<BindGroup>,
 }
 
-impl NearestTriangles {
+impl RankedTriangles {
     pub(super) fn new(
         device: &wgpu::Device,
         technique: &dyn Technique,
-        room: NearestRoom,
+        room: RankedRoom,
         pipelines: &Pipelines,
     ) -> Self {
         let alignment = u64::from(device.limits().min_uniform_buffer_offset_alignment);
@@ -91,13 +91,13 @@ impl NearestTriangles {
         let uniforms = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
         let storage = BufferUsages::STORAGE | BufferUsages::COPY_DST | BufferUsages::COPY_SRC;
         let slots = u64::from(room.views);
-        let views = create::buffer(device, "nearest views", slots * stride, uniforms);
+        let views = create::buffer(device, "ranked views", slots * stride, uniforms);
         let passes = passes(device, room, stride);
-        let keys = create::buffer(device, "nearest triangles", room.key_bytes(), storage);
+        let keys = create::buffer(device, "ranked triangles", room.key_bytes(), storage);
         let mark_bytes = 4 * u64::from(room.triangles.div_ceil(32));
         let marks = (!Capabilities::of(device).stores_from_vertices())
-            .then(|| create::buffer(device, "nearest marks", mark_bytes, storage));
-        let corners = create::buffer(device, "nearest corners", room.corner_bytes(), storage);
+            .then(|| create::buffer(device, "ranked marks", mark_bytes, storage));
+        let corners = create::buffer(device, "ranked corners", room.corner_bytes(), storage);
         let layout = layout(device);
         let slot = |buffer, index: u32, bytes| {
             wgpu::BindingResource::Buffer(wgpu::BufferBinding {
@@ -112,7 +112,7 @@ impl NearestTriangles {
                 &layout,
                 [
                     slot(&views, view, VIEW_BYTES),
-                    slot(&passes, view, size_of::<NearestPass>() as u64),
+                    slot(&passes, view, size_of::<RankedPass>() as u64),
                     keys.as_entire_binding(),
                     corners.as_entire_binding(),
                 ]
@@ -200,49 +200,49 @@ impl NearestTriangles {
 
     /// One sentence for `explain`.
     pub(super) fn explain(&self) -> String {
-        let NearestRoom { keeps, triangles, .. } = self.room;
+        let RankedRoom { keeps, triangles, .. } = self.room;
         format!(
             "{keeps} triangles per texel, of {triangles} different ones in each view; triangles_drawn() tells whether that was enough"
         )
     }
 
     /// The buffer that a binding names.
-    pub(super) fn buffer(&self, nearest: Nearest) -> &Buffer {
-        match nearest {
-            Nearest::Keys => &self.keys,
-            Nearest::Corners => &self.corners,
+    pub(super) fn buffer(&self, ranked: Ranked) -> &Buffer {
+        match ranked {
+            Ranked::Keys => &self.keys,
+            Ranked::Corners => &self.corners,
         }
     }
 
     pub(super) fn memory(&self) -> Vec<MemoryItem> {
-        let texels = MemoryItem::texels("nearest triangles", &self.keys, self.room.size);
+        let texels = MemoryItem::texels("ranked triangles", &self.keys, self.room.size);
         let buffers = [
-            ("nearest corners", &self.corners),
-            ("nearest views", &self.views),
-            ("nearest passes", &self.passes),
+            ("ranked corners", &self.corners),
+            ("ranked views", &self.views),
+            ("ranked passes", &self.passes),
         ];
         let marks = self.marks.as_ref().map(|marks| MemoryItem {
             lifetime: Lifetime::Transient,
-            ..MemoryItem::buffer("nearest marks", marks)
+            ..MemoryItem::buffer("ranked marks", marks)
         });
         let others = buffers.into_iter().map(|(name, buffer)| MemoryItem::buffer(name, buffer));
         [texels].into_iter().chain(others).chain(marks).collect()
     }
 }
 
-/// `NearestPass` of every view; never changes.
-fn passes(device: &wgpu::Device, room: NearestRoom, stride: u64) -> Buffer {
+/// `RankedPass` of every view; never changes.
+fn passes(device: &wgpu::Device, room: RankedRoom, stride: u64) -> Buffer {
     let passes = device.create_buffer(&wgpu::BufferDescriptor {
-        label: Some("nearest passes"),
+        label: Some("ranked passes"),
         size: u64::from(room.views) * stride,
         usage: BufferUsages::UNIFORM,
         mapped_at_creation: true,
     });
     for view in 0..room.views {
         let at = u64::from(view) * stride;
-        let bits = Nearest::number_bits(room.triangles);
-        let pass = NearestPass { view, keeps: room.keeps, triangles: room.triangles, bits };
-        if let Ok(mut bytes) = passes.get_mapped_range_mut(at..at + size_of::<NearestPass>() as u64) {
+        let bits = Ranked::number_bits(room.triangles);
+        let pass = RankedPass { view, keeps: room.keeps, triangles: room.triangles, bits };
+        if let Ok(mut bytes) = passes.get_mapped_range_mut(at..at + size_of::<RankedPass>() as u64) {
             bytes.copy_from_slice(bytemuck::bytes_of(&pass));
         }
     }
