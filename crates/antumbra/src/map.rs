@@ -14,11 +14,11 @@ use wgpu::{RenderPass, TextureFormat};
 
 mod caster;
 mod check;
-mod create;
 mod draw;
 mod explain;
 mod lists;
 mod memory;
+mod numbered;
 mod pipelines;
 mod ranked;
 mod receiver;
@@ -30,6 +30,7 @@ use caster::TriangleCaster;
 use draw::Draw;
 use lists::{Lists, Room};
 pub use memory::{Lifetime, Memory, MemoryItem};
+use numbered::Numbered;
 pub use pipelines::Pipelines;
 use ranked::{RankedRoom, RankedTriangles};
 use textures::Textures;
@@ -264,11 +265,8 @@ impl ShadowMap {
         if let Some(triangles) = &self.triangles {
             triangles.write(queue, views);
         }
-        if let Some(lists) = &self.lists {
-            lists.write(queue, views);
-        }
-        if let Some(ranked) = &self.ranked {
-            ranked.write(queue, views);
+        if let Some(numbered) = self.numbered() {
+            numbered.write(queue, views);
         }
         Ok(())
     }
@@ -301,7 +299,7 @@ impl ShadowMap {
             if let Some(ranked) = &self.ranked {
                 ranked.encode(encoder, seen, depth, probe, &mut draw);
             }
-            if self.lists.is_some() || self.ranked.is_some() {
+            if self.numbered().is_some() {
                 self.drawn.fetch_max(caster::numbered(), Ordering::Relaxed);
                 continue;
             }
@@ -313,6 +311,12 @@ impl ShadowMap {
                 self.encode_view_filter(encoder, view, follows, probe);
             }
         }
+    }
+
+    /// What casters that number triangles have in common.
+    fn numbered(&self) -> Option<&Numbered> {
+        let lists = self.lists.as_ref().map(Lists::numbered);
+        lists.or_else(|| self.ranked.as_ref().map(RankedTriangles::numbered))
     }
 
     /// Filters depth that the caller has rendered ([`from_depth`](Self::from_depth)).
@@ -374,9 +378,7 @@ impl ShadowMap {
     ) -> Option<wgpu::RenderPipeline> {
         let technique = self.technique.as_ref();
         let triangles = self.triangles.as_ref().map(|t| t.cutout(device, technique, wgsl, layouts));
-        let lists = || self.lists.as_ref().map(|l| l.cutout(device, technique, wgsl, layouts));
-        let ranked = || self.ranked.as_ref().map(|r| r.cutout(device, technique, wgsl, layouts));
-        triangles.or_else(lists).or_else(ranked)
+        triangles.or_else(|| self.numbered().map(|n| n.cutout(device, technique, wgsl, layouts)))
     }
 
     /// A pipeline to return to after that one, in the closure of [`encode`](Self::encode). Slower than the
@@ -384,9 +386,8 @@ impl ShadowMap {
     /// casters are depth.
     #[must_use]
     pub fn triangle_caster(&self, view: &View) -> Option<&wgpu::RenderPipeline> {
-        let lists = self.lists.as_ref().map(|l| l.pipeline(view));
-        let ranked = self.ranked.as_ref().map(|n| n.pipeline(view));
-        self.triangles.as_ref().map(TriangleCaster::general).or(lists).or(ranked)
+        let numbered = self.numbered().map(|n| n.pipeline(view));
+        self.triangles.as_ref().map(TriangleCaster::general).or(numbered)
     }
 
     /// Two `u32` per view, usage `COPY_SRC`, for techniques whose caster is [`Caster::Lists`]: entries

@@ -4,23 +4,19 @@
 //! [`Caster::Lists`]: crate::technique::Caster::Lists
 
 use super::{
-    Probe,
-    caster::{self, CasterView, VIEW_BYTES},
-    create::{self, ATOMIC, UNIFORM},
-    draw,
+    Probe, draw,
     memory::{Lifetime, MemoryItem},
+    numbered::{self, ATOMIC, Numbered, UNIFORM},
     pipelines::Pipelines,
 };
 use crate::{
-    capabilities::Capabilities,
     light::{Size, View},
-    shader::{self, TrianglePass},
-    technique::{Coverage, List, Technique},
+    shader,
+    technique::{List, Technique},
 };
-use std::num::NonZeroU64;
 use wgpu::{
     BindGroup, BindGroupLayout, BindingType, Buffer, BufferUsages, CompareFunction, ComputePipeline,
-    RenderPass, RenderPipeline, ShaderStages, Texture, TextureFormat, TextureView,
+    RenderPass, ShaderStages, Texture, TextureFormat, TextureView,
 };
 
 /// Texels across and, at most, down of textures that are arrays, as in `lists.wgsl.in` and `exact.wgsl`.
@@ -76,13 +72,10 @@ struct ListPass {
 /// Pipelines, buffers and textures of the lists.
 #[derive(Debug)]
 pub(super) struct Lists {
-    /// Under the sun, under a spot.
-    pipelines: [RenderPipeline; 2],
+    numbered: Numbered,
     scan: ComputePipeline,
     room: Room,
-    views: Buffer,
     passes: Buffer,
-    stride: u64,
     counts: Buffer,
     marks: Buffer,
     totals: Buffer,
@@ -101,16 +94,22 @@ impl Lists {
         room: Room,
         pipelines: &Pipelines,
     ) -> Self {
-        let alignment = u64::from(device.limits().min_uniform_buffer_offset_alignment);
-        let stride = VIEW_BYTES.next_multiple_of(alignment);
-        let uniforms = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
-        let storage = BufferUsages::STORAGE | BufferUsages::COPY_DST | BufferUsages::COPY_SRC;
-        let slots = u64::from(room.views);
-        let views = create::buffer(device, "list views", slots * stride, uniforms);
-        let passes = passes(device, room, stride);
-        let counts = create::buffer(device, "list counts", room.count_bytes(), storage);
-        let marks = create::buffer(device, "list marks", 4 * u64::from(room.triangles.div_ceil(32)), storage);
-        let totals = create::buffer(device, "list totals", TOTALS * slots, storage);
+        let draws = (room.size, room.views);
+        let numbered =
+            Numbered::new(device, technique, draws, CompareFunction::Always, draw_layout(device), pipelines);
+        let pass = |slot: u32| {
+            let (entries, triangles) = (room.entries(), room.triangles);
+            ListPass { view: slot / 2, fills: slot % 2, entries, triangles }
+        };
+        let passes =
+            numbered.passes(device, "list passes", &(0..2 * room.views).map(pass).collect::<Vec<_>>());
+        let storage = |label, bytes| {
+            let usage = BufferUsages::STORAGE | BufferUsages::COPY_DST | BufferUsages::COPY_SRC;
+            numbered::buffer(device, label, bytes, usage)
+        };
+        let counts = storage("list counts", room.count_bytes());
+        let marks = storage("list marks", 4 * u64::from(room.triangles.div_ceil(32)));
+        let totals = storage("list totals", TOTALS * u64::from(room.views));
         let Size { width, height } = room.size;
         let layers = [2, room.number_layers(), 3];
         let rows = room.entries().div_ceil(ROW).min(ROW);
@@ -133,23 +132,17 @@ impl Lists {
             texture(1, "list numbers", ROW, rows, TextureFormat::R32Uint),
             texture(2, "list corners", ROW, room.rows(), TextureFormat::Rgba32Float),
         ];
-        let (draw_layout, scan_layout) = (draw_layout(device), scan_layout(device));
-        let slot = |buffer, index: u32, bytes| {
-            wgpu::BindingResource::Buffer(wgpu::BufferBinding {
-                buffer,
-                offset: u64::from(index) * stride,
-                size: NonZeroU64::new(bytes),
-            })
-        };
-        let pass = |view: u32, fills: u32| slot(&passes, 2 * view + fills, size_of::<ListPass>() as u64);
+        let scan_layout = scan_layout(device);
+        let pass =
+            |view: u32, fills: u32| numbered.slot(&passes, 2 * view + fills, size_of::<ListPass>() as u64);
         let of_view = |i: usize, view: u32| part(&textures[i].0, view * layers[i], layers[i]);
         let draw = |view: u32, fills: u32| {
             let (numbers, corners) = (of_view(1, view), of_view(2, view));
-            create::bind(
+            numbered::bind(
                 device,
-                &draw_layout,
+                numbered.layout(),
                 [
-                    slot(&views, view, VIEW_BYTES),
+                    numbered.view(view),
                     pass(view, fills),
                     counts.as_entire_binding(),
                     marks.as_entire_binding(),
@@ -160,7 +153,7 @@ impl Lists {
         };
         let scan = |view: u32| {
             let ranges = of_view(0, view);
-            create::bind(
+            numbered::bind(
                 device,
                 &scan_layout,
                 [
@@ -171,26 +164,13 @@ impl Lists {
                 ],
             )
         };
-        let compiled = |spot| {
-            let shader = shader::triangles(
-                technique,
-                &Capabilities::of(device),
-                None,
-                TrianglePass::Pulled(Coverage::Touched, spot),
-            );
-            pipelines.caster(&shader, &[], |device| {
-                create::compile(device, &shader, CompareFunction::Always, &draw_layout, &[])
-            })
-        };
         Self {
             draws: (0..room.views).map(|view| [draw(view, 0), draw(view, 1)]).collect(),
             scans: (0..room.views).map(scan).collect(),
-            pipelines: [compiled(false), compiled(true)],
             scan: compile_scan(device, &scan_layout),
+            numbered,
             room,
-            views,
             passes,
-            stride,
             counts,
             marks,
             totals,
@@ -198,28 +178,9 @@ impl Lists {
         }
     }
 
-    /// The pipeline that leaves out what the caller's WGSL says.
-    pub(super) fn cutout(
-        &self,
-        device: &wgpu::Device,
-        technique: &dyn Technique,
-        wgsl: &str,
-        user: &[&BindGroupLayout],
-    ) -> RenderPipeline {
-        let shader = shader::triangles(technique, &Capabilities::of(device), Some(wgsl), TrianglePass::Any);
-        create::compile(device, &shader, CompareFunction::Always, &draw_layout(device), user)
-    }
-
-    /// The pipeline for a view of this kind.
-    pub(super) fn pipeline(&self, view: &View) -> &RenderPipeline {
-        &self.pipelines[caster::perspective(view) as usize]
-    }
-
-    pub(super) fn write(&self, queue: &wgpu::Queue, views: &[View]) {
-        for (i, view) in views.iter().enumerate() {
-            let bytes = CasterView::new(view, self.room.size, Coverage::Touched);
-            queue.write_buffer(&self.views, i as u64 * self.stride, bytemuck::bytes_of(&bytes));
-        }
+    /// Pipelines and views.
+    pub(super) fn numbered(&self) -> &Numbered {
+        &self.numbered
     }
 
     /// Counts, gives room, fills. `depth` is a target that the passes need and leave alone.
@@ -243,25 +204,7 @@ impl Lists {
                 let texels = (self.room.count_bytes() / 4) as u32;
                 pass.dispatch_workgroups(texels.div_ceil(SEGMENT * WORKGROUP), 1, 1);
             }
-            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                label: Some("shadow cast"),
-                color_attachments: &[],
-                depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-                    view: depth,
-                    depth_ops: Some(wgpu::Operations {
-                        load: wgpu::LoadOp::Clear(1.0),
-                        store: wgpu::StoreOp::Discard,
-                    }),
-                    stencil_ops: None,
-                }),
-                timestamp_writes: probe.pass("cast", index),
-                occlusion_query_set: None,
-                multiview_mask: None,
-            });
-            pass.set_pipeline(self.pipeline(view));
-            pass.set_bind_group(0, &self.draws[index][fills], &[]);
-            caster::number_anew();
-            draw(view, &mut pass);
+            self.numbered.draw(encoder, (index, view), &self.draws[index][fills], depth, probe, draw);
         }
     }
 
@@ -288,7 +231,7 @@ impl Lists {
             ("list counts", &self.counts, Lifetime::Transient),
             ("list marks", &self.marks, Lifetime::Transient),
             ("list totals", &self.totals, Lifetime::Kept),
-            ("list views", &self.views, Lifetime::Kept),
+            ("list views", self.numbered.views(), Lifetime::Kept),
             ("list passes", &self.passes, Lifetime::Kept),
         ];
         let names = ["list ranges", "list numbers", "list corners"];
@@ -304,27 +247,6 @@ impl Lists {
             self.room.triangles
         )
     }
-}
-
-/// `ListPass` of every view, to count and to fill; never changes.
-fn passes(device: &wgpu::Device, room: Room, stride: u64) -> Buffer {
-    let slots = 2 * room.views;
-    let passes = device.create_buffer(&wgpu::BufferDescriptor {
-        label: Some("list passes"),
-        size: u64::from(slots) * stride,
-        usage: BufferUsages::UNIFORM,
-        mapped_at_creation: true,
-    });
-    for slot in 0..slots {
-        let at = u64::from(slot) * stride;
-        let pass =
-            ListPass { view: slot / 2, fills: slot % 2, entries: room.entries(), triangles: room.triangles };
-        if let Ok(mut bytes) = passes.get_mapped_range_mut(at..at + size_of::<ListPass>() as u64) {
-            bytes.copy_from_slice(bytemuck::bytes_of(&pass));
-        }
-    }
-    passes.unmap();
-    passes
 }
 
 /// Some layers of a texture.
@@ -347,7 +269,7 @@ fn stored(format: TextureFormat) -> BindingType {
 
 fn draw_layout(device: &wgpu::Device) -> BindGroupLayout {
     let fragment = |ty| (ShaderStages::FRAGMENT, ty);
-    create::layout(
+    numbered::layout(
         device,
         &[
             (ShaderStages::VERTEX_FRAGMENT, UNIFORM),
@@ -362,14 +284,14 @@ fn draw_layout(device: &wgpu::Device) -> BindGroupLayout {
 
 fn scan_layout(device: &wgpu::Device) -> BindGroupLayout {
     let all = [UNIFORM, ATOMIC, ATOMIC, stored(TextureFormat::R32Uint)];
-    create::layout(device, &all.map(|ty| (ShaderStages::COMPUTE, ty)))
+    numbered::layout(device, &all.map(|ty| (ShaderStages::COMPUTE, ty)))
 }
 
 fn compile_scan(device: &wgpu::Device, layout: &BindGroupLayout) -> ComputePipeline {
     device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
         label: Some("scan"),
-        layout: Some(&create::pipeline_layout(device, &[Some(layout)])),
-        module: &create::module(device, shader::SCAN),
+        layout: Some(&numbered::pipeline_layout(device, &[Some(layout)])),
+        module: &numbered::module(device, shader::SCAN),
         entry_point: Some("compute"),
         compilation_options: Default::default(),
         cache: None,

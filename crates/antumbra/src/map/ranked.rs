@@ -1,26 +1,22 @@
-//! The nearest triangles that touch each texel, for [`Caster::Ranked`]: an atomic maximum for each entry of
-//! a texel passes the lesser key on to the next entry, so that all end in order, whatever order they are
-//! drawn in.
+//! The first triangles that touch each texel, for [`Caster::Ranked`]: an atomic maximum for each entry of
+//! a texel passes the lesser key on to the next entry, so that all end in order, whatever order
+//! fragments come in.
 //!
 //! [`Caster::Ranked`]: crate::technique::Caster::Ranked
 
 use super::{
     Probe,
-    caster::{self, CasterView, VIEW_BYTES},
-    create::{self, ATOMIC, UNIFORM},
     memory::{Lifetime, MemoryItem},
+    numbered::{self, ATOMIC, Numbered, UNIFORM},
     pipelines::Pipelines,
 };
 use crate::{
     capabilities::Capabilities,
     light::{Size, View},
-    shader::{self, TrianglePass},
-    technique::{Coverage, Ranked, Technique},
+    technique::{Ranked, Technique},
 };
-use std::num::NonZeroU64;
 use wgpu::{
-    BindGroup, BindGroupLayout, Buffer, BufferUsages, CompareFunction, RenderPass, RenderPipeline,
-    ShaderStages, TextureView,
+    BindGroup, BindGroupLayout, Buffer, BufferUsages, CompareFunction, RenderPass, ShaderStages, TextureView,
 };
 
 /// Bytes of a triangle's corners.
@@ -65,12 +61,9 @@ struct RankedPass {
 /// Pipelines and buffers.
 #[derive(Debug)]
 pub(super) struct RankedTriangles {
-    /// Under the sun, under a spot.
-    pipelines: [RenderPipeline; 2],
+    numbered: Numbered,
     room: RankedRoom,
-    views: Buffer,
     passes: Buffer,
-    stride: u64,
     keys: Buffer,
     /// Of triangles whose corners are kept already, where fragments have to keep them.
     marks: Option<Buffer>,
@@ -86,82 +79,37 @@ impl RankedTriangles {
         room: RankedRoom,
         pipelines: &Pipelines,
     ) -> Self {
-        let alignment = u64::from(device.limits().min_uniform_buffer_offset_alignment);
-        let stride = VIEW_BYTES.next_multiple_of(alignment);
-        let uniforms = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
-        let storage = BufferUsages::STORAGE | BufferUsages::COPY_DST | BufferUsages::COPY_SRC;
-        let slots = u64::from(room.views);
-        let views = create::buffer(device, "ranked views", slots * stride, uniforms);
-        let passes = passes(device, room, stride);
-        let keys = create::buffer(device, "ranked triangles", room.key_bytes(), storage);
-        let mark_bytes = 4 * u64::from(room.triangles.div_ceil(32));
+        let RankedRoom { size, views, keeps, triangles } = room;
+        let numbered =
+            Numbered::new(device, technique, (size, views), CompareFunction::Less, layout(device), pipelines);
+        let bits = Ranked::number_bits(triangles);
+        let all: Vec<_> = (0..views).map(|view| RankedPass { view, keeps, triangles, bits }).collect();
+        let passes = numbered.passes(device, "ranked passes", &all);
+        let storage = |label, bytes| {
+            let usage = BufferUsages::STORAGE | BufferUsages::COPY_DST | BufferUsages::COPY_SRC;
+            numbered::buffer(device, label, bytes, usage)
+        };
+        let keys = storage("ranked triangles", room.key_bytes());
         let marks = (!Capabilities::of(device).stores_from_vertices())
-            .then(|| create::buffer(device, "ranked marks", mark_bytes, storage));
-        let corners = create::buffer(device, "ranked corners", room.corner_bytes(), storage);
-        let layout = layout(device);
-        let slot = |buffer, index: u32, bytes| {
-            wgpu::BindingResource::Buffer(wgpu::BufferBinding {
-                buffer,
-                offset: u64::from(index) * stride,
-                size: NonZeroU64::new(bytes),
-            })
-        };
+            .then(|| storage("ranked marks", 4 * u64::from(triangles.div_ceil(32))));
+        let corners = storage("ranked corners", room.corner_bytes());
         let group = |view: u32| {
-            create::bind(
-                device,
-                &layout,
-                [
-                    slot(&views, view, VIEW_BYTES),
-                    slot(&passes, view, size_of::<RankedPass>() as u64),
-                    keys.as_entire_binding(),
-                    corners.as_entire_binding(),
-                ]
-                .into_iter()
-                .chain(marks.as_ref().map(Buffer::as_entire_binding)),
-            )
+            let own = [
+                numbered.view(view),
+                numbered.slot(&passes, view, size_of::<RankedPass>() as u64),
+                keys.as_entire_binding(),
+                corners.as_entire_binding(),
+            ];
+            let marks = marks.as_ref().map(Buffer::as_entire_binding);
+            numbered::bind(device, numbered.layout(), own.into_iter().chain(marks))
         };
-        let compiled = |spot| {
-            let pass = TrianglePass::Pulled(Coverage::Touched, spot);
-            let shader = shader::triangles(technique, &Capabilities::of(device), None, pass);
-            pipelines.caster(&shader, &[], |device| {
-                create::compile(device, &shader, CompareFunction::Less, &layout, &[])
-            })
-        };
-        Self {
-            groups: (0..room.views).map(group).collect(),
-            pipelines: [compiled(false), compiled(true)],
-            room,
-            views,
-            passes,
-            stride,
-            keys,
-            marks,
-            corners,
-        }
+        let groups = (0..views).map(group).collect();
+        Self { numbered, room, passes, keys, marks, corners, groups }
     }
 
-    /// The pipeline that leaves out what the caller's WGSL says.
-    pub(super) fn cutout(
-        &self,
-        device: &wgpu::Device,
-        technique: &dyn Technique,
-        wgsl: &str,
-        user: &[&BindGroupLayout],
-    ) -> RenderPipeline {
-        let shader = shader::triangles(technique, &Capabilities::of(device), Some(wgsl), TrianglePass::Any);
-        create::compile(device, &shader, CompareFunction::Less, &layout(device), user)
-    }
-
-    /// The pipeline for a view of this kind.
-    pub(super) fn pipeline(&self, view: &View) -> &RenderPipeline {
-        &self.pipelines[caster::perspective(view) as usize]
-    }
-
-    pub(super) fn write(&self, queue: &wgpu::Queue, views: &[View]) {
-        for (i, view) in views.iter().enumerate() {
-            let bytes = CasterView::new(view, self.room.size, Coverage::Touched);
-            queue.write_buffer(&self.views, i as u64 * self.stride, bytemuck::bytes_of(&bytes));
-        }
+    /// Pipelines and views.
+    pub(super) fn numbered(&self) -> &Numbered {
+        &self.numbered
     }
 
     /// Draws the casters of a view into its keys; `depth` gets that of the texels' centres.
@@ -177,25 +125,7 @@ impl RankedTriangles {
         if let Some(marks) = &self.marks {
             encoder.clear_buffer(marks, 0, None);
         }
-        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some("shadow cast"),
-            color_attachments: &[],
-            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-                view: depth,
-                depth_ops: Some(wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(1.0),
-                    store: wgpu::StoreOp::Store,
-                }),
-                stencil_ops: None,
-            }),
-            timestamp_writes: probe.pass("cast", index),
-            occlusion_query_set: None,
-            multiview_mask: None,
-        });
-        pass.set_pipeline(self.pipeline(view));
-        pass.set_bind_group(0, &self.groups[index], &[]);
-        caster::number_anew();
-        draw(view, &mut pass);
+        self.numbered.draw(encoder, (index, view), &self.groups[index], depth, probe, draw);
     }
 
     /// One sentence for `explain`.
@@ -218,7 +148,7 @@ impl RankedTriangles {
         let texels = MemoryItem::texels("ranked triangles", &self.keys, self.room.size);
         let buffers = [
             ("ranked corners", &self.corners),
-            ("ranked views", &self.views),
+            ("ranked views", self.numbered.views()),
             ("ranked passes", &self.passes),
         ];
         let marks = self.marks.as_ref().map(|marks| MemoryItem {
@@ -228,26 +158,6 @@ impl RankedTriangles {
         let others = buffers.into_iter().map(|(name, buffer)| MemoryItem::buffer(name, buffer));
         [texels].into_iter().chain(others).chain(marks).collect()
     }
-}
-
-/// `RankedPass` of every view; never changes.
-fn passes(device: &wgpu::Device, room: RankedRoom, stride: u64) -> Buffer {
-    let passes = device.create_buffer(&wgpu::BufferDescriptor {
-        label: Some("ranked passes"),
-        size: u64::from(room.views) * stride,
-        usage: BufferUsages::UNIFORM,
-        mapped_at_creation: true,
-    });
-    for view in 0..room.views {
-        let at = u64::from(view) * stride;
-        let bits = Ranked::number_bits(room.triangles);
-        let pass = RankedPass { view, keeps: room.keeps, triangles: room.triangles, bits };
-        if let Ok(mut bytes) = passes.get_mapped_range_mut(at..at + size_of::<RankedPass>() as u64) {
-            bytes.copy_from_slice(bytemuck::bytes_of(&pass));
-        }
-    }
-    passes.unmap();
-    passes
 }
 
 fn layout(device: &wgpu::Device) -> BindGroupLayout {
@@ -261,5 +171,5 @@ fn layout(device: &wgpu::Device) -> BindGroupLayout {
         if by_vertices { both(ATOMIC) } else { fragment(ATOMIC) },
         fragment(ATOMIC),
     ];
-    create::layout(device, &types[..if by_vertices { 4 } else { 5 }])
+    numbered::layout(device, &types[..if by_vertices { 4 } else { 5 }])
 }
