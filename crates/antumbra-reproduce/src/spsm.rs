@@ -101,7 +101,7 @@ pub(crate) const SOURCE: Source = Source {
                     of the pixels of YeahRight match with a map of 2048².",
             ours: "The scene tangle at 1920×1080 pixels: SPSM as published and with a second layer, deep primitive maps that \
                    keep the first four or six triangles of each texel by their numbers, lists of all.",
-            seconds: [60, 8],
+            seconds: [90, 13],
             run: beyond::beyond,
         },
         Target {
@@ -111,7 +111,7 @@ pub(crate) const SOURCE: Source = Source {
             ours: "The scenes contact, spheres and tangle with 1024² maps, 480×360 pixels, the camera turning 8° while the \
                    light turns 5°. Flicker is the mean |Δv − Δv_truth| of a pixel from frame to frame, every frame being \
                    traced.",
-            seconds: [180, 20],
+            seconds: [240, 20],
             run: motion::flicker,
         },
     ],
