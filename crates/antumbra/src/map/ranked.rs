@@ -168,7 +168,7 @@ fn layout(device: &wgpu::Device) -> BindGroupLayout {
         both(UNIFORM),
         both(UNIFORM),
         fragment(ATOMIC),
-        if by_vertices { both(ATOMIC) } else { fragment(ATOMIC) },
+        (if by_vertices { ShaderStages::VERTEX } else { ShaderStages::FRAGMENT }, ATOMIC),
         fragment(ATOMIC),
     ];
     numbered::layout(device, &types[..if by_vertices { 4 } else { 5 }])
