@@ -151,6 +151,10 @@ impl BiasTerms {
     /// texel's slope or more too near to the light for the others, so that little is left to add.
     pub(crate) const FOURS: Self = Self { slope_texels: 0.05, grazing_offset_texels: 0.18, ..Self::TEXELS };
 
+    /// For receivers whose ray meets triangles themselves, unrounded but for floats.
+    pub(crate) const RAYS: Self =
+        Self { constant_texels: 0.005, slope_texels: 0.005, depth_steps: 8.0, ..Self::NONE };
+
     /// The terms by name.
     fn named(&mut self) -> [(&'static str, &mut f32); 6] {
         [

@@ -1,11 +1,11 @@
 //! Beyond the paper: from one triangle per texel to all.
 
+use super::quality::studied;
 use crate::{
     bench::Bench,
     gallery,
     page::{Cell, Page, Table, Unit},
     raster::difference,
-    study::Truth,
     verdict::{Verdict, at_least, more},
 };
 use anyhow::{Context, Result};
@@ -23,6 +23,8 @@ const ENTRIES: [(&str, &str); 6] = [
 ];
 /// Those that are shown.
 const SHOWN: [&str; 4] = ["hard", "spsm", "dpm", "exact"];
+const SCENE: &str = "tangle";
+const RESOLUTION: [u32; 2] = [1920, 1080];
 const MAPS: [u32; 3] = [512, 1024, 2048];
 /// The map that only a standard map has.
 const LARGE: u32 = 4096;
@@ -32,14 +34,12 @@ const PAPER: f64 = 0.9963;
 const RIGHT: f64 = 0.999;
 
 pub(super) fn beyond(bench: &Bench<'_>) -> Result<Page> {
-    let shot = bench.shot("tangle", [1920, 1080]);
     let specs = ENTRIES.map(|entry| entry.0);
     let mut matches = vec![Vec::new(); ENTRIES.len()];
     let mut page = Page::default();
     let mut bytes = [0; ENTRIES.len()];
     for map in MAPS {
-        let study = bench.study(shot, bench.map(map), &specs)?;
-        let truth = bench.truths(&study, &[Truth::Hard])?.remove(0);
+        let (study, truth) = studied(bench, SCENE, RESOLUTION, map, &specs)?;
         for (found, spec) in matches.iter_mut().zip(specs) {
             found.push(bench.score(&study, spec, &truth, None)?.pixel_match);
         }
@@ -57,11 +57,10 @@ pub(super) fn beyond(bench: &Bench<'_>) -> Result<Page> {
             }
         }
     }
-    let large = bench.study(shot, bench.map(LARGE), &["hard"])?;
-    let truth = bench.truths(&large, &[Truth::Hard])?.remove(0);
+    let (large, truth) = studied(bench, SCENE, RESOLUTION, LARGE, &["hard"])?;
     let large = bench.score(&large, "hard", &truth, None)?.pixel_match;
     let entrants: Vec<(u32, &str)> = specs.iter().map(|spec| (bench.map(MAPS[1]), *spec)).collect();
-    let times = bench.race(shot, &entrants, bench.rounds(3))?;
+    let times = bench.race(bench.shot(SCENE, RESOLUTION), &entrants, bench.rounds(3))?;
     let mut table = Table::new(
         "Share of pixels that rays answer likewise; frame time over that of the standard map, and memory, with a 1024² map.",
         &["triangles kept", "512²", "1024²", "2048²", "4096²", "frame", "memory"],

@@ -15,7 +15,8 @@ const PAIR: [(&str, &str); 2] = [("hard", "standard map"), ("spsm", "SPSM")];
 /// Name of the technique's kind of pixels.
 const UNCERTAIN: &str = "uncertain";
 
-fn studied(
+/// Techniques on a scene, and one shadow ray per pixel.
+pub(super) fn studied(
     bench: &Bench<'_>,
     scene: &'static str,
     resolution: [u32; 2],

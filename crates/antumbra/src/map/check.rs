@@ -84,6 +84,11 @@ pub(super) fn caster(
     }
 }
 
+/// What a technique needs that the device lacks, and what to do.
+fn refused(technique: &dyn Technique, what: String, instead: String) -> Result<(), Unsupported> {
+    Err(Unsupported::Feature { technique: technique.page().name.into(), what, instead })
+}
+
 /// Whether the lists of all triangles fit.
 pub(super) fn lists(device: &wgpu::Device, technique: &dyn Technique, room: Room) -> Result<(), Unsupported> {
     let limits = device.limits();
@@ -92,9 +97,7 @@ pub(super) fn lists(device: &wgpu::Device, technique: &dyn Technique, room: Room
     if !(1..=max).contains(&layers) {
         return Err(Unsupported::Layers { views: room.views, layers, max });
     }
-    let refused = |what: String, instead: String| {
-        Err(Unsupported::Feature { technique: technique.page().name.into(), what, instead })
-    };
+    let refused = |what, instead| refused(technique, what, instead);
     let (bytes, max) = (room.count_bytes(), limits.max_storage_buffer_binding_size);
     if bytes > max {
         let what = format!("a storage binding of {bytes} bytes for the counts ({max} are possible)");
@@ -129,19 +132,18 @@ pub(super) fn ranked(
 ) -> Result<(), Unsupported> {
     let limits = device.limits();
     let max = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
-    let name = technique.page().name.to_string();
     if room.keeps == 0 || room.triangles == 0 {
         let what = format!("{} triangles per texel, of {}", room.keeps, room.triangles);
-        return Err(Unsupported::Feature { technique: name, what, instead: "keep at least one".into() });
+        return refused(technique, what, "keep at least one".into());
     }
     let (found, needed) = (limits.max_storage_buffers_per_shader_stage, RANKED_BUFFERS);
     if found < needed {
         let what = format!("{needed} storage buffers in a stage ({found} are possible)");
-        return Err(Unsupported::Feature { technique: name, what, instead: "take another technique".into() });
+        return refused(technique, what, "take another technique".into());
     }
     let refused = |bytes: u64, of: &str, instead: String| {
         let what = format!("a storage binding of {bytes} bytes for {of} ({max} are possible)");
-        Err(Unsupported::Feature { technique: technique.page().name.into(), what, instead })
+        refused(technique, what, instead)
     };
     let (keys, corners) = (room.key_bytes(), room.corner_bytes());
     if keys > max {

@@ -90,7 +90,7 @@ impl Technique for Dpm {
         ]
     }
     fn bias(&self) -> BiasTerms {
-        BiasTerms { constant_texels: 0.005, slope_texels: 0.005, depth_steps: 8.0, ..BiasTerms::NONE }
+        BiasTerms::RAYS
     }
     /// Distance of 32-bit floats below 1, where a spot's projected depths crowd.
     fn depth_step(&self) -> f32 {
