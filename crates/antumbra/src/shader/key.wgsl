@@ -1,7 +1,7 @@
 /// A triangle that touches a texel in 32 bits, the greater the more it is worth keeping; 0 is none. From the
 /// highest bit: whether its near side is seen; its linear depth; its number of `bits` bits; all inverted.
 fn key_of(near: bool, depth: f32, number: u32, bits: u32) -> u32 {
-    return ~(select(0u, key_near, near) | key_step(depth, bits) << bits | number);
+    return ~(select(0u, key_near, near) | (key_step(depth, bits) << bits) | number);
 }
 
 /// Linear depth 0 to 1 in whole steps, rounded down; what lies outside is moved there.
@@ -18,7 +18,7 @@ fn key_number(key: u32, bits: u32) -> u32 {
 
 /// Whether the triangle lies behind all that is in that step.
 fn key_deeper(key: u32, step: u32, bits: u32) -> bool {
-    return (~key & ~key_near) >> bits > step;
+    return ((~key & ~key_near) >> bits) > step;
 }
 
 /// Whether its near side is seen.

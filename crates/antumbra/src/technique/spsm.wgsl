@@ -36,16 +36,16 @@ fn spsm_neighbour(k: u32) -> vec2i {
 /// Reckoned, not looked up: software drivers fill an array of constants anew for every invocation.
 fn spsm_tangents(pattern: u32) -> u32 {
     let sides = pattern & 0x55u;
-    let beside = sides << 1u | sides >> 1u | sides >> 7u | sides << 7u;
+    let beside = (sides << 1u) | (sides >> 1u) | (sides >> 7u) | (sides << 7u);
     let kept = sides | (pattern & beside & 0xaau);
     let lit = ~kept & 0xffu;
-    var starts = select(lit & (kept << 1u | kept >> 7u), 1u, kept == 0u);
+    var starts = select(lit & ((kept << 1u) | (kept >> 7u)), 1u, kept == 0u);
     var count = 0u;
     var directions = 0u;
     while starts != 0u {
         let start = firstTrailingBit(starts);
         starts &= starts - 1u;
-        let run = (lit >> start | lit << (8u - start)) & 0xffu;
+        let run = ((lit >> start) | (lit << (8u - start))) & 0xffu;
         let length = firstTrailingBit(~run);
         let pieces = select(1u, 2u, length > 5u);
         let first = 4u * start + 30u + 2u * length / pieces;
@@ -53,7 +53,7 @@ fn spsm_tangents(pattern: u32) -> u32 {
         directions |= select(0u, ((first + 2u * length) & 31u) << (5u * count + 5u), pieces == 2u);
         count += pieces;
     }
-    return kept | count << 8u | directions << 11u;
+    return kept | (count << 8u) | (directions << 11u);
 }
 
 /// The words that a texel stores in a layer; none, as an empty texel, beside the map.
@@ -172,7 +172,7 @@ fn spsm_own(map: texture_2d_array<u32>, point: vec2f, view: u32, depth: f32, gai
     let side = select(vec2i(-1), vec2i(1), at >= vec2f(0.0));
     var clear = lit;
     for (var k = 1u; clear && k < 3u + spsm_layers; k += 1u) {
-        let step = vec2i(vec2u(k & 1u, k >> 1u & 1u)) * side;
+        let step = vec2i(vec2u(k & 1u, (k >> 1u) & 1u)) * side;
         let words = spsm_load(map, texel + step, view, k >> 2u);
         clear = !spsm_nearer(words, at - vec2f(step), depth, size);
     }
@@ -279,11 +279,11 @@ fn spsm_recover(map: texture_2d_array<u32>, point: vec2f, view: u32, depth: f32,
     let receiver = vec3f(gain, depth + dot(gain, floor(point) + 0.5 - point));
     let casters = spsm_casters(map, texel, view, receiver, size);
     let tangents = spsm_tangents(casters & 255u);
-    let kept = tangents & 255u | 256u;
-    let count = tangents >> 8u & 7u;
+    let kept = (tangents & 255u) | 256u;
+    let count = (tangents >> 8u) & 7u;
     var lit = false;
     for (var i = 0u; !lit && i < count; i += 1u) {
-        let angle = f32(tangents >> (11u + 5u * i) & 31u) * (6.283185307179586 / 32.0);
+        let angle = f32((tangents >> (11u + 5u * i)) & 31u) * (6.283185307179586 / 32.0);
         let normal = vec2f(cos(angle), sin(angle));
         let nearest = spsm_silhouette(map, point, view, casters & kept, normal, size);
         let alone = nearest.x < -1e8 || nearest.z > 1e8;

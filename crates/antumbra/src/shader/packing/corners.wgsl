@@ -4,18 +4,18 @@
 /// the depth gained over the width and over the height of the map.
 fn packing_triangle(corners: mat3x3f, slope: vec2f) -> vec4u {
     let level = quantizer_encode(slope);
-    return vec4u(0u, 0u, 0u, level.x << 8u | level.y);
+    return vec4u(0u, 0u, 0u, (level.x << 8u) | level.y);
 }
 
 /// Slope, as decoded, of what `packing_triangle` or `packing_texel` made: depth over the width and over
 /// the height of the map.
 fn packing_slope(words: vec4u) -> vec2f {
-    return quantizer_decode(vec2f(vec2u(words.w >> 8u & 255u, words.w & 255u)));
+    return quantizer_decode(vec2f(vec2u((words.w >> 8u) & 255u, words.w & 255u)));
 }
 
 /// How far the decoded slope and depth may be from what was stored: half a level.
 fn packing_slack(words: vec4u) -> vec3f {
-    let level = vec2f(vec2u(words.w >> 8u & 255u, words.w & 255u));
+    let level = vec2f(vec2u((words.w >> 8u) & 255u, words.w & 255u));
     let slope = quantizer_decode(level);
     let steps = max(quantizer_decode(level + 0.5) - slope, slope - quantizer_decode(level - 0.5));
     return vec3f(steps, 0.5 / 65535.0);

@@ -54,7 +54,7 @@ fn packing_edge(a: vec2f, b: vec2f) -> u32 {
 /// the height of the map, at most 1024.
 fn packing_slope(words: vec4u) -> vec2f {
     let low = words & vec4u(63u);
-    let bent = vec2f(packing_value(low.x << 6u | low.y, -1.0, 1.0, 12u), packing_value(low.z << 6u | low.w, -1.0, 1.0, 12u));
+    let bent = vec2f(packing_value((low.x << 6u) | low.y, -1.0, 1.0, 12u), packing_value((low.z << 6u) | low.w, -1.0, 1.0, 12u));
     return bent / max(1.0 - abs(bent), vec2f(1.0 / 1024.0));
 }
 
@@ -76,7 +76,7 @@ fn packing_texel(shared_words: vec4u, corners: mat3x3f, distances: vec3f, centre
     words.z |= packing_quantize(distances.z, -packing_reach, packing_beyond, 13u) << 6u;
     // In front of the near plane depth only has to stay there, wherever the neighbours look.
     let depth = max(anchor.z, min(0.0, -2.5 * (abs(slope.x) + abs(slope.y)))) - dot(slope, anchor.xy);
-    words.w |= packing_quantize(depth, -6.0, 3.0, 24u) << 8u | select(128u, 192u, alone);
+    words.w |= (packing_quantize(depth, -6.0, 3.0, 24u) << 8u) | select(128u, 192u, alone);
     return words;
 }
 
@@ -98,7 +98,7 @@ fn packing_lines(words: vec4u, centre: vec2f, size: vec2f) -> mat3x3f {
 
 /// The edge in one of the first three words.
 fn packing_line(word: u32) -> vec3f {
-    let distance = packing_value(word >> 6u & 8191u, -packing_reach, packing_beyond, 13u);
+    let distance = packing_value((word >> 6u) & 8191u, -packing_reach, packing_beyond, 13u);
     return vec3f(packing_direction(f32(word >> 19u) / 2048.0), distance);
 }
 
