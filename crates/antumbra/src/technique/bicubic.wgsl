@@ -31,5 +31,6 @@ fn bicubic_visibility(casters: texture_depth_2d_array, compare: sampler_comparis
             lit += weight_x[column] * weight_y[row] * textureSampleCompareLevel(casters, compare, point, view, reference_depth(depth, gain));
         }
     }
-    return lit;
+    // Floats that sum to one may exceed it by some roundings.
+    return min(lit, 1.0);
 }

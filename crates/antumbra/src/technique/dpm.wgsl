@@ -101,7 +101,8 @@ fn dpm_visibility(casters: texture_depth_2d_array, uv: vec2f, view: u32, depth: 
             count = dpm_samples * dpm_samples;
         }
     }
-    return f32(lit) / f32(count);
+    // Some divisions round n / n up.
+    return min(f32(lit) / f32(count), 1.0);
 }
 
 /// Class of a receiver at a pixel's centre. Arguments as dpm_visibility.

@@ -13,5 +13,6 @@ fn esm_custom(map: LookupMap, uv: vec2f, view: u32, depth: f32, c: f32) -> f32 {
         let share = mix(1.0 - weight, weight, far);
         lit += share.x * share.y * min(esm_ratio(depth, textureLoad(map, texel, view, 0).x, c), 1.0);
     }
-    return lit;
+    // Floats that sum to one may exceed it by some roundings.
+    return min(lit, 1.0);
 }
