@@ -1,8 +1,9 @@
 //! Cascades: several views of one directional light, each for a range of the camera's distance.
 
 use crate::{
+    camera::Sight,
     error::LightError,
-    light::{Bounds, Fit, Light, Size, View, visible_hull},
+    light::{Bounds, Fit, Light, Size, View},
 };
 use glam::Mat4;
 
@@ -11,7 +12,7 @@ use glam::Mat4;
 pub struct Cascades {
     /// Number of views, 1 to 8.
     pub count: u32,
-    /// 0 divides the range evenly, 1 logarithmically; 0.7 suits most scenes
+    /// 0 to 1: 0 divides the range evenly, 1 logarithmically; 0.7 suits most scenes
     /// (Zhang et al. 2006, "Parallel-split shadow maps").
     pub blend: f32,
 }
@@ -40,7 +41,8 @@ impl Cascades {
 /// What a light's views are fitted to.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stage {
-    /// The camera: world to clip space, z in `[0,1]`. Reversed or infinite depth is fine.
+    /// The camera: world to clip space, z in `[0,1]`. It may be perspective or orthographic, off-centre, its
+    /// depth reversed or infinite.
     pub camera: Mat4,
     /// Everything in the scene: casters and receivers.
     pub scene: Bounds,
@@ -54,14 +56,24 @@ impl Light {
     /// One view per cascade that sees any receiver, nearest first, each fitted to the part of the
     /// scene that the camera sees in its range. Spots ignore the cascades and have one view.
     ///
+    /// Ranges run along the camera's line of sight. Those of an orthographic camera are even, whatever the
+    /// blend: its pixels are equally large at any distance. (Which of its ends is the nearer is told by a
+    /// world that is right-handed.)
+    ///
     /// # Errors
-    /// [`LightError`], among them [`LightError::NothingVisible`] if the camera sees nothing.
+    /// [`LightError`], among them [`LightError::NothingVisible`] if the camera sees nothing and
+    /// [`LightError::Camera`] if its matrix is not finite or has no inverse.
     pub fn views(&self, stage: &Stage, cascades: Cascades) -> Result<Vec<View>, LightError> {
         const MOST: u32 = 8;
         if !(1..=MOST).contains(&cascades.count) {
             return Err(LightError::Cascades { count: cascades.count, max: MOST });
         }
-        let everything = visible_hull(stage.camera, &stage.scene, 0.0..=f32::INFINITY);
+        if !(0.0..=1.0).contains(&cascades.blend) {
+            return Err(LightError::Blend { blend: cascades.blend });
+        }
+        stage.scene.check("scene")?;
+        let sight = Sight::new(stage.camera, &stage.scene)?;
+        let everything = sight.hull(&stage.scene, 0.0..=f32::INFINITY);
         if everything.is_empty() {
             return Err(LightError::NothingVisible { at: String::new() });
         }
@@ -74,15 +86,16 @@ impl Light {
         if cascades.count == 1 || matches!(self, Self::Spot { .. }) {
             return Ok(vec![self.view(&fit(everything))?]);
         }
-        let distance = |p: &glam::Vec3| stage.camera.row(3).dot(p.extend(1.0));
-        let far = everything.iter().map(distance).fold(0.0, f32::max);
-        let near = everything.iter().map(distance).fold(far, f32::min).max(far * 1e-3);
-        let splits = cascades.splits(near, far * 1.0001);
+        let far = everything.iter().map(|p| sight.distance(*p)).fold(0.0, f32::max);
+        let near = everything.iter().map(|p| sight.distance(*p)).fold(far, f32::min).max(far * 1e-3);
+        // No part of an orthographic picture needs finer texels than another.
+        let blend = if sight.orthographic { 0.0 } else { cascades.blend };
+        let splits = Cascades { blend, ..cascades }.splits(near, far * 1.0001);
         let mut views = Vec::new();
         for pair in splits.windows(2) {
             // The first range reaches back to the eye.
             let start = if pair[0] == splits[0] { 0.0 } else { pair[0] };
-            let seen = visible_hull(stage.camera, &stage.scene, start..=pair[1]);
+            let seen = sight.hull(&stage.scene, start..=pair[1]);
             if !seen.is_empty() {
                 views.push(self.view(&fit(seen))?);
             }
@@ -133,5 +146,58 @@ mod tests {
         let above = Bounds { min: Vec3::new(0.0, 0.0, 60.0), max: Vec3::new(1.0, 1.0, 61.0) };
         let blind = Stage { scene: above, ..stage() };
         assert!(matches!(sun.views(&blind, Cascades::new(2)), Err(LightError::NothingVisible { .. })));
+    }
+
+    #[test]
+    fn an_orthographic_camera_is_divided_along_its_line_of_sight() {
+        let sun = Light::Directional { direction: Vec3::new(0.4, -1.0, 0.3) };
+        let look = rh::view::look_at_mat4(Vec3::new(60.0, 60.0, 60.0), Vec3::ZERO, Vec3::Y);
+        // Standard and reversed depth.
+        for (near, far) in [(0.1, 500.0), (500.0, 0.1)] {
+            let lens = rh::proj::directx::orthographic(-40.0, 40.0, -30.0, 30.0, near, far);
+            let stage = Stage { camera: lens * look, ..stage() };
+            let one = sun.views(&stage, Cascades::new(1)).unwrap();
+            let views = sun.views(&stage, Cascades::new(4)).unwrap();
+            assert_eq!(views.len(), 4);
+            // Nearest first: the point where each view is centred goes away from the camera.
+            let distance = |view: &View| {
+                let middle = view.clip_from_world.inverse().project_point3(Vec3::new(0.0, 0.0, 0.5));
+                -look.transform_point3(middle).z
+            };
+            assert!(views.windows(2).all(|v| distance(&v[0]) + 1.0 < distance(&v[1])));
+            // Negative control: without a division all would be as coarse as the only one.
+            assert!(views.iter().all(|v| v.texel_world < 0.8 * one[0].texel_world), "{views:?} {one:?}");
+        }
+    }
+
+    #[test]
+    fn a_scaled_matrix_is_the_same_camera() {
+        let sun = Light::Directional { direction: Vec3::new(0.3, -1.0, 0.1) };
+        let scaled = Stage { camera: stage().camera * 1000.0, ..stage() };
+        let [plain, scaled] = [stage(), scaled].map(|s| sun.views(&s, Cascades::new(4)).unwrap());
+        assert_eq!(plain.len(), scaled.len());
+        assert!(plain.iter().zip(&scaled).all(|(a, b)| a.texel_world == b.texel_world));
+    }
+
+    #[test]
+    fn cameras_and_scenes_that_are_none_are_refused_by_name() {
+        let sun = Light::Directional { direction: Vec3::new(0.3, -1.0, 0.1) };
+        let spot = Light::Spot { position: Vec3::Y * 9.0, direction: Vec3::NEG_Y, outer_angle: 0.6 };
+        assert!(sun.views(&stage(), Cascades::new(4)).is_ok(), "negative control");
+        for light in [sun, spot] {
+            for camera in [Mat4::NAN, Mat4::ZERO, Mat4::from_scale(Vec3::new(1.0, 1.0, 0.0))] {
+                for count in [1, 4] {
+                    let error = light.views(&Stage { camera, ..stage() }, Cascades::new(count)).unwrap_err();
+                    assert!(matches!(error, LightError::Camera { .. }), "{error}");
+                }
+            }
+            let scene = Bounds { min: Vec3::NAN, max: Vec3::ONE };
+            let error = light.views(&Stage { scene, ..stage() }, Cascades::new(2)).unwrap_err();
+            assert!(matches!(error, LightError::Bounds { what: "scene", .. }), "{error}");
+            for blend in [f32::NAN, -0.1, 1.5] {
+                let error = light.views(&stage(), Cascades { count: 2, blend }).unwrap_err();
+                assert!(matches!(error, LightError::Blend { .. }), "{error}");
+            }
+        }
     }
 }

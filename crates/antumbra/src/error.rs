@@ -176,12 +176,22 @@ pub enum LightError {
     /// Bounds with min > max or non-finite corners.
     #[error("bounds {min} – {max} of the {what} are empty or not finite")]
     Bounds {
-        /// casters or receivers.
+        /// scene, casters or receivers.
         what: &'static str,
         /// Smallest corner.
         min: glam::Vec3,
         /// Largest corner.
         max: glam::Vec3,
+    },
+    /// The camera's matrix holds NaN or infinity, or flattens the world.
+    #[error(
+        "the camera's matrix {matrix} {fault}; needed: projection times view, from world to clip space, finite and with an inverse"
+    )]
+    Camera {
+        /// What is wrong with it.
+        fault: &'static str,
+        /// What was given.
+        matrix: glam::Mat4,
     },
     /// The camera sees nothing of the receivers.
     #[error("no receiver lies inside the camera's view{at}")]
@@ -204,5 +214,11 @@ pub enum LightError {
         count: u32,
         /// Largest number.
         max: u32,
+    },
+    /// Neither even nor logarithmic nor between them.
+    #[error("a blend of {blend} between even and logarithmic cascades is not possible; allowed: 0 to 1")]
+    Blend {
+        /// What was given.
+        blend: f32,
     },
 }

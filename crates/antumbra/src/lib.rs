@@ -108,6 +108,7 @@
 //! `serde`: settings of techniques, [`Filter`] and [`technique::Bias`] can be saved and loaded.
 mod bias;
 mod bound;
+mod camera;
 mod capabilities;
 mod cascade;
 mod error;
@@ -122,12 +123,13 @@ mod shader;
 mod table;
 pub mod technique;
 
+pub use camera::visible_hull;
 pub use capabilities::Capabilities;
 pub use cascade::{Cascades, Stage};
 pub use error::{LightError, MeshError, SettingError, Unsupported};
 pub use filter::{Filter, Sampling, Values};
 pub use kernel::{Kernel, Weights};
-pub use light::{Bounds, Fit, Light, Size, View, visible_hull};
+pub use light::{Bounds, Fit, Light, Size, View};
 pub use map::{
     CasterMesh, DEPTH_FORMAT, Lifetime, Memory, MemoryItem, NoProbe, Options, Pipelines, Probe, ShadowMap,
     TooManyViews,

@@ -1,6 +1,6 @@
 //! Where a light looks from: pure functions from lights and bounds to [`View`]s.
 
-use crate::error::LightError;
+use crate::{camera::TINY, error::LightError};
 use glam::{DMat4, DVec3, DVec4, Mat4, Vec2, Vec3, Vec4};
 
 /// Texels of a map.
@@ -36,7 +36,7 @@ impl Bounds {
         (0..8).map(move |i| Vec3::new(ends[i & 1].x, ends[i >> 1 & 1].y, ends[i >> 2 & 1].z))
     }
 
-    fn check(&self, what: &'static str) -> Result<(), LightError> {
+    pub(crate) fn check(&self, what: &'static str) -> Result<(), LightError> {
         let good = self.min.is_finite() && self.max.is_finite() && self.min.cmple(self.max).all();
         if good { Ok(()) } else { Err(LightError::Bounds { what, min: self.min, max: self.max }) }
     }
@@ -67,7 +67,7 @@ pub struct Fit {
     /// Everything that casts shadows.
     pub casters: Bounds,
     /// Points whose convex hull contains every receiver that will be shaded: corners of a box, or
-    /// [`visible_hull`] for what a camera sees. Not empty.
+    /// [`visible_hull`](crate::visible_hull) for what a camera sees. Not empty.
     pub receivers: Vec<Vec3>,
     /// Size of the map.
     pub size: Size,
@@ -152,6 +152,10 @@ impl Light {
     /// [`LightError`] for unusable directions, angles, bounds or margins.
     pub fn view(&self, fit: &Fit) -> Result<View, LightError> {
         fit.casters.check("casters")?;
+        // Least and largest would pass over a NaN.
+        if let Some(point) = fit.receivers.iter().find(|p| !p.is_finite()) {
+            return Err(LightError::Bounds { what: "receivers", min: *point, max: *point });
+        }
         let (low, high) = extent(fit.receivers.iter().map(|p| p.as_dvec3()));
         Bounds { min: low.as_vec3(), max: high.as_vec3() }.check("receivers")?;
         let side = fit.size.width.min(fit.size.height);
@@ -189,8 +193,6 @@ fn overlap(receivers: [f64; 2], casters: [f64; 2]) -> ([f64; 2], [f64; 2]) {
     (both, [cut(0), cut(1)])
 }
 
-/// Smallest extent of a scene, in its own unit, that views tell from nothing.
-const TINY: f64 = 1e-25;
 /// How far in front of the nearest receiver casters are kept apart, in depth ranges of the receivers.
 const APART: f64 = 0.1;
 
@@ -268,59 +270,6 @@ fn spot(position: DVec3, axes: Axes, outer_angle: f32, fit: &Fit) -> Result<View
         near_over_far: (near / far) as f32,
         depth_world: (far - near) as f32,
     })
-}
-
-/// Corners of the part of a box that a camera sees, for [`Fit::receivers`].
-///
-/// `clip_from_world` is the camera's matrix with z in `[0,1]`; reversed and infinite depth ranges
-/// are fine. `distance` restricts the view to a range of clip-space w (distance along the line of
-/// sight of a perspective camera). Empty if nothing is visible.
-#[must_use]
-pub fn visible_hull(
-    clip_from_world: Mat4,
-    bounds: &Bounds,
-    distance: std::ops::RangeInclusive<f32>,
-) -> Vec<Vec3> {
-    let m = clip_from_world.as_dmat4();
-    let [x, y, z, w] = [m.row(0), m.row(1), m.row(2), m.row(3)];
-    let (low, high) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
-    let mut planes = vec![w + x, w - x, w + y, w - y, z, w - z];
-    planes.push(w - DVec4::W * f64::from(*distance.start()));
-    if distance.end().is_finite() {
-        planes.push(DVec4::W * f64::from(*distance.end()) - w);
-    }
-    for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
-        planes.push(axis.extend(-low.dot(axis)));
-        planes.push((-axis).extend(high.dot(axis)));
-    }
-    // A plane at infinity bounds nothing.
-    let planes: Vec<DVec4> = planes
-        .into_iter()
-        .filter(|p| p.truncate().length() > 1e-12)
-        .map(|p| p / p.truncate().length())
-        .collect();
-    let slack = 1e-6 * low.abs().max(high.abs()).max_element().max(TINY);
-    let inside = |p: DVec3| planes.iter().all(|q| q.dot(p.extend(1.0)) >= -slack);
-    let mut hull = Vec::new();
-    for i in 0..planes.len() {
-        for j in 0..i {
-            for k in 0..j {
-                hull.extend(
-                    meet(planes[i], planes[j], planes[k]).filter(|p| inside(*p)).map(|p| p.as_vec3()),
-                );
-            }
-        }
-    }
-    hull
-}
-
-/// The point on three planes, unless two are parallel.
-fn meet(a: DVec4, b: DVec4, c: DVec4) -> Option<DVec3> {
-    let (na, nb, nc) = (a.truncate(), b.truncate(), c.truncate());
-    let volume = na.dot(nb.cross(nc));
-    (volume.abs() > 1e-9)
-        .then(|| -(nb.cross(nc) * a.w + nc.cross(na) * b.w + na.cross(nb) * c.w) / volume)
-        .filter(|p| p.is_finite())
 }
 
 #[cfg(test)]
