@@ -6,7 +6,7 @@
 //! camera, the geometry or the tracer.
 
 use crate::triangle::{Meeting, meet_plane};
-use crate::{CameraRays, Hit, Tracer};
+use crate::{CameraRays, Hit, Ray, Tracer};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
@@ -31,6 +31,9 @@ impl Default for CoverageTolerance {
 /// Why a pixel shows one triangle to raster and another to rays.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Difference {
+    /// Both triangles cover the pixel's centre, uncut, in one plane: the two sides of a folded leaf, say.
+    /// Whichever is seen, it is the same surface in the same place.
+    Twin,
     /// An edge of either triangle passes through the centre of the pixel, within the tolerance.
     Edge,
     /// Both triangles lie at this pixel at the same depth, within the tolerance.
@@ -46,8 +49,10 @@ pub enum Difference {
 pub struct Coverage {
     /// Pixels compared.
     pub pixels: usize,
-    /// Same triangle, or background for both.
+    /// Same triangle, or background for both, or [`twins`](Self::twins).
     pub agree: usize,
+    /// Explained by [`Difference::Twin`]: pixels that show the same surface all the same.
+    pub twins: usize,
     /// Explained by [`Difference::Edge`].
     pub edge: usize,
     /// Explained by [`Difference::DepthTie`].
@@ -99,6 +104,10 @@ impl Tracer<'_> {
         let mut coverage = Coverage { pixels, agree: pixels - differences.len(), ..Coverage::default() };
         for (pixel, difference) in differences {
             match difference {
+                Difference::Twin => {
+                    coverage.twins += 1;
+                    coverage.agree += 1;
+                }
                 Difference::Edge => coverage.edge += 1,
                 Difference::DepthTie => coverage.depth_tie += 1,
                 Difference::Cutout => coverage.cutout += 1,
@@ -131,6 +140,8 @@ impl Tracer<'_> {
         let cutout = |&t: &u32| self.has_border(rays, t, center, tolerance.edge_pixels);
         if known.iter().any(edge) {
             Difference::Edge
+        } else if known.len() == 2 && self.are_twins(&rays.center_ray(pixel), [traced, drawn]) {
+            Difference::Twin
         } else if known.len() == 2 && self.is_tie(rays, pixel, [traced, drawn], tolerance) {
             Difference::DepthTie
         } else if known.iter().any(cutout) {
@@ -140,10 +151,28 @@ impl Tracer<'_> {
         }
     }
 
-    /// Whether both triangles cover the pixel's centre at the same depth.
+    /// Whether both triangles stop the ray, and lie in one plane up to the rounding of their corners: a
+    /// corner, and the plane that it should lie on, are each known to √3/2 ulps of the largest coordinate.
+    fn are_twins(&self, ray: &Ray, pair: [u32; 2]) -> bool {
+        let stops = |&t: &u32| {
+            meet_plane(ray, self.corners(t))
+                .is_some_and(|met| met.t > 0.0 && covers(&met) && !self.is_cut(t, &met))
+        };
+        let on_plane = |t: u32, plane: u32| {
+            let [a, b, c] = self.corners(plane);
+            let normal = (b - a).cross(c - a).normalize_or_zero();
+            let tolerance = 2.0 * self.ulp(plane).max(self.ulp(t));
+            self.corners(t).iter().all(|corner| normal.dot(*corner - a).abs() <= tolerance)
+        };
+        pair.iter().all(stops) && (on_plane(pair[0], pair[1]) || on_plane(pair[1], pair[0]))
+    }
+
+    /// Whether both triangles cover the pixel's centre, uncut, at the same depth.
     fn is_tie(&self, rays: &CameraRays, pixel: usize, pair: [u32; 2], tolerance: CoverageTolerance) -> bool {
         let ray = rays.center_ray(pixel);
-        let met = |t: u32| meet_plane(&ray, self.corners(t)).filter(|met| met.t > 0.0 && covers(met));
+        let met = |t: u32| {
+            meet_plane(&ray, self.corners(t)).filter(|met| met.t > 0.0 && covers(met) && !self.is_cut(t, met))
+        };
         match pair.map(met) {
             [Some(a), Some(b)] => (a.t - b.t).abs() <= tolerance.depth_relative * a.t.max(b.t),
             _ => false,

@@ -114,9 +114,14 @@ impl Tracer<'_> {
 
     /// Height above the plane of `triangle` in which nothing shadows it, world units.
     fn clearance(&self, triangle: u32) -> f64 {
+        self.clearance_ulps * self.ulp(triangle)
+    }
+
+    /// Ulp of f32 of the largest coordinate of `triangle`, world units.
+    pub(crate) fn ulp(&self, triangle: u32) -> f64 {
         let corners = self.geometry.triangle(triangle as usize);
         let largest = corners.map(|corner| corner.abs().max_element()).into_iter().fold(0.0, f32::max);
-        self.clearance_ulps * f64::from(largest.next_up() - largest)
+        f64::from(largest.next_up() - largest)
     }
 
     /// Whether the light reaches what a primary ray sees: 1 or 0, `None` where the hit is not

@@ -138,7 +138,7 @@ impl<'g> Tracer<'g> {
 
     /// Whether the point of the triangle is cut out, so that rays pass.
     pub(crate) fn is_cut(&self, triangle: u32, met: &Meeting) -> bool {
-        triangle >= self.first_masked && self.geometry.is_cut(triangle as usize, met.u as f32, met.v as f32)
+        triangle >= self.first_masked && self.geometry.is_cut(triangle as usize, met.u, met.v)
     }
 
     /// Corners in f64.

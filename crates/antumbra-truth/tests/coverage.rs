@@ -57,17 +57,58 @@ fn a_wrong_camera_is_not_explained() {
     assert_eq!(coverage.agree + coverage.edge + coverage.depth_tie + coverage.unexplained, coverage.pixels);
 }
 
-#[test]
-fn coplanar_triangles_tie() {
-    let twice = grid(DVec3::new(-4.0, 0.0, -4.0), DVec3::X * 8.0, DVec3::Z * 8.0, 3);
-    let count = twice.len() as u32;
-    let geometry = geometry(&[twice.clone(), twice].concat());
+/// Two grounds, the second higher by `lift`, the rasteriser showing the other one everywhere.
+fn doubled(lift: f64) -> Coverage {
+    let ground =
+        |y: f64| grid(DVec3::new(-4.0, y, -4.0), DVec3::new(8.0, 0.3, 0.0), DVec3::new(0.1, 0.7, 8.0), 3);
+    let (first, mut second) = (ground(0.0), ground(lift));
+    // Wound the other way, as the back of a leaf is.
+    second.iter_mut().for_each(|corners| corners.swap(0, 1));
+    let count = first.len() as u32;
+    let geometry = geometry(&[first, second].concat());
     let tracer = Tracer::new(&geometry).unwrap();
     let hits = tracer.primary(&rays());
+    let other = |t: u32| if t < count { t + count } else { t - count };
     let raster: Vec<u32> =
-        hits.iter().map(|hit| if hit.is_hit() { hit.triangle + count } else { Hit::NONE }).collect();
-    let coverage = tracer.coverage(&rays(), &hits, &raster, CoverageTolerance::default());
+        hits.iter().map(|hit| if hit.is_hit() { other(hit.triangle) } else { Hit::NONE }).collect();
+    tracer.coverage(&rays(), &hits, &raster, CoverageTolerance::default())
+}
+
+#[test]
+fn twins_in_one_plane_agree() {
+    let coverage = doubled(0.0);
+    assert!(coverage.twins > 10_000, "{coverage:?}");
+    assert_eq!(coverage.agree + coverage.edge, coverage.pixels, "{coverage:?}");
+}
+
+#[test]
+fn triangles_that_nearly_touch_tie_and_no_more() {
+    let coverage = doubled(2e-5);
     assert!(coverage.depth_tie > 10_000 && coverage.unexplained == 0, "{coverage:?}");
+    assert_eq!(coverage.twins, 0, "{coverage:?}");
+    // Negative control: a step that a depth buffer can tell.
+    let coverage = doubled(1e-2);
+    assert!(coverage.unexplained > 10_000 && coverage.twins == 0, "{coverage:?}");
+}
+
+#[test]
+fn a_twin_that_is_cut_out_is_none() {
+    // The same square, whole and with its right half cut out: where that is, nothing can show it.
+    let mut geometry = masked();
+    geometry.positions.extend_from_within(..);
+    geometry.uvs.extend_from_within(..);
+    geometry.colors = vec![glam::Vec4::ONE; 12];
+    geometry.normals = vec![Vec3::Y; 12];
+    geometry.indices = (0..12).collect();
+    geometry.materials.push(Material::default());
+    geometry.groups = vec![(1, 0..2), (0, 2..4)];
+    let tracer = Tracer::new(&geometry).unwrap();
+    let rays = picture(DVec3::new(0.0, 5.0, 0.0), DVec3::ZERO, [81, 61]);
+    let hits = tracer.primary(&rays);
+    let raster: Vec<u32> =
+        hits.iter().map(|h| if h.triangle < 2 { h.triangle + 2 } else { h.triangle }).collect();
+    let coverage = tracer.coverage(&rays, &hits, &raster, CoverageTolerance::default());
+    assert!(coverage.twins > 100 && coverage.unexplained > 100, "{coverage:?}");
 }
 
 #[test]
