@@ -114,8 +114,10 @@ pub(crate) struct SceneArguments {
     /// Seed of a built-in scene
     #[arg(long, default_value_t = 1)]
     pub(crate) seed: u64,
-    /// Eye, target and vertical field of view in degrees (50 if left out), as x,y,z:x,y,z:degrees, or
-    /// the number of a camera in the file; default: the file's first camera, else one that sees everything
+    /// Eye, target, vertical field of view in degrees (50 if left out) and roll in degrees (0 if left
+    /// out, clockwise), as x,y,z:x,y,z:degrees:roll, or ortho:x,y,z:x,y,z:height:roll (parallel rays, a
+    /// picture of that height), or the number of a camera in the file; default: the file's first camera,
+    /// else one that sees everything
     #[arg(long, allow_hyphen_values = true, value_name = "CAMERA")]
     pub(crate) camera: Option<String>,
     /// Direction of the sun as x,y,z (the way light travels), or spot:x,y,z:x,y,z:degrees (position,

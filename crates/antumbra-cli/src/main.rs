@@ -6,6 +6,7 @@ mod names;
 mod output;
 mod progress;
 mod scene;
+mod views;
 
 use clap::Parser;
 use std::process::ExitCode;

@@ -8,9 +8,9 @@ use antumbra_lab::metrics::{Score, no_shadow_baseline, score};
 use antumbra_lab::plane::{Plane, Rgba8Image, crop, error_heat_map};
 use antumbra_lab::report;
 use antumbra_lab::results::{
-    AdapterFacts, BoundsFacts, CameraFacts, Family, Lifetime, LightFacts, MemoryItem, MemoryResult, PassTime,
-    Program, Results, SCHEMA, SceneFacts, Scores, Spread, TechniqueImages, TechniqueResult, TimeMethod,
-    TimeResult, TruthFacts, TruthImages, Work,
+    AdapterFacts, BoundsFacts, CameraFacts, Family, LensFacts, Lifetime, LightFacts, MemoryItem,
+    MemoryResult, PassTime, Program, Results, SCHEMA, SceneFacts, Scores, Spread, TechniqueImages,
+    TechniqueResult, TimeMethod, TimeResult, TruthFacts, TruthImages, Work,
 };
 use std::collections::BTreeMap;
 use std::error::Error;
@@ -345,7 +345,7 @@ fn results(truth: &Truth, techniques: Vec<TechniqueResult>) -> Result<Results, B
                 position: [0.0, 1.7, 6.0],
                 target: [0.0, 0.0, 0.0],
                 up: [0.0, 1.0, 0.0],
-                fov_y_deg: 50.0,
+                lens: LensFacts::FovYDeg(50.0),
             },
             bounds: BoundsFacts { min: [-8.0, 0.0, -8.0], max: [8.0, 2.4, 8.0] },
         },

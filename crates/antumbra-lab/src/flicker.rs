@@ -128,7 +128,7 @@ pub fn measure(gpu: &Gpu, request: &Request, progress: &dyn Progress) -> Result<
     for (number, frame) in frames.iter().enumerate() {
         let at = || format!("frame {number} of the path");
         let maps: Vec<&ShadowMap> = contestants.iter().map(|c| &c.shadows).collect();
-        let camera = stage.camera_matrix_of(&frame.camera, &frame.light);
+        let camera = stage.camera_matrix_of(geometry, &frame.camera, &frame.light);
         let view = compare::view_from(camera, scene, &frame.light, &maps).with_context(at)?;
         compare::aim(gpu, &mut stage, &mut contestants, &view)?;
         texels.push(view.texel_world);
@@ -139,7 +139,7 @@ pub fn measure(gpu: &Gpu, request: &Request, progress: &dyn Progress) -> Result<
             Some(_) if !camera_rests => Some(answers(gpu, &stage, &lighting, &contestants)?),
             _ => None,
         };
-        stage.look(gpu, &frame.camera, &frame.light);
+        stage.look(gpu, geometry, &frame.camera, &frame.light);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         stage.encode_surfaces(&mut encoder, None);
         gpu.finish(encoder)?;

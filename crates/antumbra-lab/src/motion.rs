@@ -1,6 +1,6 @@
 //! Paths of cameras and lights: the same frames every time, from any scene's own camera and light.
 
-use antumbra_scene::{Camera, Light};
+use antumbra_scene::{Camera, Light, Projection};
 use glam::{DQuat, DVec3, Vec3};
 
 /// How camera and light move. Frame 0 is the scene as it is.
@@ -108,8 +108,16 @@ impl Path {
 /// The camera with another arm from its target to its eye.
 fn place(camera: &Camera, arm: impl FnOnce(DVec3) -> DVec3) -> Camera {
     let target = camera.target.as_dvec3();
-    let eye = target + arm(camera.position.as_dvec3() - target);
-    Camera { position: eye.as_vec3(), ..*camera }
+    let old = camera.position.as_dvec3() - target;
+    let new = arm(old);
+    let projection = match camera.projection {
+        // Where rays are parallel, only a larger picture shows what a camera farther away would.
+        Projection::Orthographic { height } => {
+            Projection::Orthographic { height: (f64::from(height) * new.length() / old.length()) as f32 }
+        }
+        perspective @ Projection::Perspective { .. } => perspective,
+    };
+    Camera { position: (target + new).as_vec3(), projection, ..*camera }
 }
 
 fn unit(v: Vec3, otherwise: DVec3) -> DVec3 {
@@ -140,7 +148,7 @@ mod tests {
             position: Vec3::new(3.0, 4.0, 9.0),
             target: Vec3::new(1.0, 1.0, 0.0),
             up: Vec3::Y,
-            fov_y: 0.7,
+            projection: Projection::Perspective { fov_y: 0.7 },
         }
     }
 
@@ -177,6 +185,20 @@ mod tests {
             let expected = if matches!(path, Path::Light | Path::Both) { 5.0 } else { 0.0 };
             assert!((swing - expected).abs() < 0.02, "{path:?}: {swing}");
         }
+    }
+
+    #[test]
+    fn parallel_rays_show_more_from_afar() {
+        let camera = Camera { projection: Projection::Orthographic { height: 2.0 }, ..camera() };
+        let sun = Light::Directional { direction: Vec3::NEG_Y };
+        let height = |frame: &Frame| match frame.camera.projection {
+            Projection::Orthographic { height } => height,
+            Projection::Perspective { .. } => f32::NAN,
+        };
+        let frames = Path::Recede.frames(&camera, &sun, 3).unwrap();
+        assert!((height(&frames[2]) - 16.0).abs() < 1e-4);
+        let frames = Path::Camera.frames(&camera, &sun, 3).unwrap();
+        assert!((height(&frames[2]) - 1.8).abs() < 1e-4);
     }
 
     #[test]

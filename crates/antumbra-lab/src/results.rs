@@ -102,7 +102,7 @@ pub enum LightFacts {
     },
 }
 
-/// A pinhole camera, world space.
+/// A camera, world space.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CameraFacts {
     /// Eye.
@@ -111,8 +111,20 @@ pub struct CameraFacts {
     pub target: [f32; 3],
     /// Roughly up.
     pub up: [f32; 3],
-    /// Vertical field of view, degrees.
-    pub fov_y_deg: f32,
+    /// `fov_y_deg` or `height`.
+    #[serde(flatten)]
+    pub lens: LensFacts,
+}
+
+/// How a camera projects.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub enum LensFacts {
+    /// Perspective: vertical field of view, degrees.
+    #[serde(rename = "fov_y_deg")]
+    FovYDeg(f32),
+    /// Orthographic: height of the picture, world units.
+    #[serde(rename = "height")]
+    Height(f32),
 }
 
 /// An axis-aligned box.

@@ -7,17 +7,20 @@
 
 use crate::gpu::Gpu;
 use antumbra_scene::{AlphaMode, Camera, Geometry, Light};
-use anyhow::{Context, Result, bail};
+use anyhow::{Result, bail};
 use bytemuck::{Pod, Zeroable};
-use glam::{Mat4, Vec3, camera::rh};
+use glam::{Mat4, Vec3};
 use wgpu::{RenderPass, TextureFormat, TextureView};
 
 mod casters;
+mod frame;
 mod materials;
+mod nearest;
 mod pipelines;
 pub(crate) mod surfaces;
 
 pub use casters::Casters;
+pub(crate) use frame::Frame;
 use materials::Materials;
 use pipelines::Pipelines;
 pub(crate) use pipelines::fullscreen;
@@ -32,55 +35,6 @@ struct Attributes {
     color: [f32; 4],
 }
 
-/// Rust side of `Frame` in `stage/frame.wgsl`.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
-pub(crate) struct Frame {
-    /// Camera matrix; world positions are taken relative to the eye first, for precision.
-    clip_from_relative: [[f32; 4]; 4],
-    eye: [f32; 4],
-    /// Ray through picture coordinates (0, 0), and what it gains per pixel to the right and down.
-    ray: [f32; 4],
-    ray_right: [f32; 4],
-    ray_down: [f32; 4],
-    /// Towards the light; w = 1 for a spot's position.
-    to_light: [f32; 4],
-    /// Cosine of a spot's half angle; −2 for the sun.
-    cone: [f32; 4],
-}
-
-impl Frame {
-    fn new(camera: &Camera, light: &Light, [width, height]: [u32; 2], near: f32) -> (Self, Mat4) {
-        let aspect = width as f32 / height as f32;
-        let forward = (camera.target - camera.position).normalize();
-        let right = forward.cross(camera.up).normalize();
-        let up = right.cross(forward);
-        let tangent = (camera.fov_y / 2.0).tan();
-        // Reversed depth keeps precision far away.
-        let lens = rh::proj::directx::perspective_infinite_reverse(camera.fov_y, aspect, near);
-        let turn = rh::view::look_to_mat4(Vec3::ZERO, forward, up);
-        let matrix = lens * turn;
-        let mut frame = Self {
-            clip_from_relative: matrix.to_cols_array_2d(),
-            eye: camera.position.extend(1.0).to_array(),
-            ray: (forward - right * (tangent * aspect) + up * tangent).extend(0.0).to_array(),
-            ray_right: (right * (2.0 * tangent * aspect / width as f32)).extend(0.0).to_array(),
-            ray_down: (up * (-2.0 * tangent / height as f32)).extend(0.0).to_array(),
-            to_light: [0.0; 4],
-            cone: [-2.0; 4],
-        };
-        match *light {
-            Light::Directional { direction } => frame.to_light = (-direction).extend(0.0).to_array(),
-            Light::Spot { position, direction, outer_angle } => {
-                frame.to_light = position.extend(1.0).to_array();
-                let [x, y, z] = direction.normalize().to_array();
-                frame.cone = [outer_angle.cos(), x, y, z];
-            }
-        }
-        (frame, matrix * Mat4::from_translation(-camera.position))
-    }
-}
-
 /// Geometry, materials and pipelines of one scene.
 #[derive(Debug)]
 pub struct Stage {
@@ -92,8 +46,6 @@ pub struct Stage {
     materials: Materials,
     pipelines: Pipelines,
     camera_matrix: Mat4,
-    /// Distance of the camera's near plane.
-    near: f32,
     frame_buffer: wgpu::Buffer,
     frame_group: wgpu::BindGroup,
     light_buffer: wgpu::Buffer,
@@ -122,7 +74,9 @@ impl Stage {
         if !(1..=most).contains(&width) || !(1..=most).contains(&height) {
             bail!("resolution {width}x{height} is not possible; each side must be 1 to {most}");
         }
-        let bounds = geometry.bounds().context("the scene has no triangles")?;
+        if geometry.indices.is_empty() {
+            bail!("the scene has no triangles");
+        }
         let attributes: Vec<Attributes> = (0..geometry.positions.len())
             .map(|i| Attributes {
                 normal: geometry.normals[i].to_array(),
@@ -132,8 +86,7 @@ impl Stage {
             .collect();
         check_buffer(gpu, "vertices", attributes.len(), size_of::<Attributes>())?;
         check_buffer(gpu, "corners of triangles", geometry.indices.len(), size_of::<u32>())?;
-        let near = bounds.radius().max(1e-30) * 1e-4;
-        let (frame, camera_matrix) = Frame::new(camera, light, resolution, near);
+        let (frame, camera_matrix) = Frame::new(camera, light, resolution, geometry);
         let materials = Materials::new(gpu, geometry)?;
         let pipelines = Pipelines::new(gpu, &materials.layout);
         use wgpu::BufferUsages as Usage;
@@ -165,7 +118,6 @@ impl Stage {
             materials,
             pipelines,
             camera_matrix,
-            near,
             frame_buffer,
             light_buffer,
             light_stride,
@@ -175,7 +127,8 @@ impl Stage {
         Ok(stage)
     }
 
-    /// World to clip space of the camera, reversed infinite depth: for fitting light views.
+    /// World to clip space of the camera, reversed depth, infinite where rays meet in the eye: for fitting
+    /// light views.
     #[must_use]
     pub fn camera_matrix(&self) -> Mat4 {
         self.camera_matrix
@@ -183,13 +136,13 @@ impl Stage {
 
     /// The camera matrix that [`look`](Self::look) would lead to.
     #[must_use]
-    pub fn camera_matrix_of(&self, camera: &Camera, light: &Light) -> Mat4 {
-        Frame::new(camera, light, self.surfaces.resolution(), self.near).1
+    pub fn camera_matrix_of(&self, geometry: &Geometry, camera: &Camera, light: &Light) -> Mat4 {
+        Frame::new(camera, light, self.surfaces.resolution(), geometry).1
     }
 
     /// Moves camera and light. What [`surfaces`](Self::surfaces) holds is then to be drawn anew.
-    pub fn look(&mut self, gpu: &Gpu, camera: &Camera, light: &Light) {
-        let (frame, matrix) = Frame::new(camera, light, self.surfaces.resolution(), self.near);
+    pub fn look(&mut self, gpu: &Gpu, geometry: &Geometry, camera: &Camera, light: &Light) {
+        let (frame, matrix) = Frame::new(camera, light, self.surfaces.resolution(), geometry);
         gpu.queue.write_buffer(&self.frame_buffer, 0, bytemuck::bytes_of(&frame));
         self.camera_matrix = matrix;
     }

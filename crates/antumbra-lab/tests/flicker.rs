@@ -7,7 +7,7 @@ use antumbra_lab::{
     compare::Silent,
     flicker::{self, Promise, Request, Results, TechniqueFlicker},
     gpu::Gpu,
-    motion::Path,
+    motion::{Frame, Path},
     stage::Stage,
 };
 use antumbra_scene::{Camera, procedural};
@@ -77,8 +77,9 @@ fn main() {
         let mut moved = stage(&frames[0].camera, &frames[0].light);
         let before = draw(&moved);
         let there = stage(&frames[1].camera, &frames[1].light);
-        assert_eq!(moved.camera_matrix_of(&frames[1].camera, &frames[1].light), there.camera_matrix());
-        moved.look(&gpu, &frames[1].camera, &frames[1].light);
+        let Frame { camera, light } = frames[1];
+        assert_eq!(moved.camera_matrix_of(&scene.geometry, &camera, &light), there.camera_matrix());
+        moved.look(&gpu, &scene.geometry, &camera, &light);
         assert_eq!(moved.camera_matrix(), there.camera_matrix());
         assert!(draw(&moved) == draw(&there) && draw(&moved) != before);
     });

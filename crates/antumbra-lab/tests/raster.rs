@@ -9,8 +9,11 @@ use antumbra::{
     technique::{Bias, BiasTerms, Binding, Family, Map, Page, Uniform},
 };
 use antumbra_lab::{compare, gpu::Gpu, plane::Plane};
-use antumbra_scene::{AlphaMode, Camera, Image, Instance, Light, Material, Mesh, Scene, procedural};
+use antumbra_scene::{
+    AlphaMode, Camera, Image, Instance, Light, Material, Mesh, Projection, Scene, procedural,
+};
 use antumbra_testing::Trials;
+use antumbra_truth::Tracer;
 use common::{KERNEL, Shot, score};
 use glam::{DVec3, Mat4, Vec2, Vec3, Vec4};
 
@@ -27,6 +30,16 @@ fn main() {
     trials.add("coverage_of_cutouts", |gpu| {
         sees_what_rays_see(&Shot::new(gpu, &checkered(true), [320, 240]), 0.999)
     });
+    trials.add("coverage_of_parallel_rays", |gpu| {
+        let mut scene = procedural::by_name("spheres").unwrap().scene(1);
+        let own = scene.cameras[0];
+        // Rolled too, and so near that the plane on which rays begin cuts through the scene.
+        let position = own.target + 0.3 * (own.position - own.target);
+        let projection = Projection::Orthographic { height: 4.0 };
+        scene.cameras[0] = Camera { position, projection, up: Vec3::new(0.4, 1.0, 0.1), ..own };
+        sees_what_rays_see(&Shot::new(gpu, &scene, [320, 240]), 0.999);
+    });
+    trials.add("a_near_surface_is_not_clipped", near_surface);
     trials.add("coverage_notices_another_camera", another_camera);
     trials.add("cutouts_cast_their_holes", holes);
     trials.add("derivatives_are_those_of_the_plane", derivatives);
@@ -44,6 +57,23 @@ fn sees_what_rays_see(shot: &Shot, least: f64) {
     assert!(coverage.unexplained <= allowed, "{:?}: {coverage:?}", coverage.first_unexplained);
     assert!(coverage.agreement() >= least, "{coverage:?}");
     assert!(coverage.agree > 0);
+}
+
+/// A millimetre from the ground of a scene that a stray triangle makes kilometres wide.
+fn near_surface(gpu: &antumbra_testing::Gpu) {
+    let mut scene = checkered(false);
+    scene.meshes.push(quad(square(1.0, 0.0, 0.0).map(|p| p + 9000.0 * Vec3::X), 0));
+    scene.instances.push(Instance { mesh: 2, world_from_mesh: Mat4::IDENTITY });
+    scene.cameras[0] = Camera {
+        position: Vec3::new(0.0, 0.001, 2.5),
+        target: Vec3::new(0.0, -0.01, 2.49),
+        ..scene.cameras[0]
+    };
+    let shot = Shot::new(gpu, &scene, [320, 240]);
+    sees_what_rays_see(&shot, 0.999);
+    let rays = shot.rays();
+    let nearest = Tracer::new(&shot.geometry).unwrap().trace(&rays.ray(160.0, 239.5)).position;
+    assert!(nearest.distance(rays.eye()) < 0.002, "{nearest} should be close to the eye");
 }
 
 /// Half a pixel aside is enough to be noticed.
@@ -85,7 +115,7 @@ fn placed(meshes: Vec<Mesh>, materials: Vec<Material>, images: Vec<Image>) -> Sc
             position: Vec3::new(1.5, 4.0, 5.5),
             target: Vec3::new(0.0, 0.3, 0.0),
             up: Vec3::Y,
-            fov_y: 0.8,
+            projection: Projection::Perspective { fov_y: 0.8 },
         }],
         lights: vec![Light::Directional { direction: Vec3::new(0.3, -1.0, 0.35).normalize() }],
         notes: Vec::new(),

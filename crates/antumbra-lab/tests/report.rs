@@ -7,9 +7,9 @@ use antumbra_lab::metrics::score;
 use antumbra_lab::plane::{Plane, Rgba8Image};
 use antumbra_lab::report::{self, ReportError};
 use antumbra_lab::results::{
-    AdapterFacts, BoundsFacts, CameraFacts, Family, Lifetime, LightFacts, MemoryItem, MemoryResult, PassTime,
-    Program, Results, ResultsError, SCHEMA, SceneFacts, Scores, Spread, TechniqueImages, TechniqueResult,
-    TimeMethod, TimeResult, TruthFacts, TruthImages, Work,
+    AdapterFacts, BoundsFacts, CameraFacts, Family, LensFacts, Lifetime, LightFacts, MemoryItem,
+    MemoryResult, PassTime, Program, Results, ResultsError, SCHEMA, SceneFacts, Scores, Spread,
+    TechniqueImages, TechniqueResult, TimeMethod, TimeResult, TruthFacts, TruthImages, Work,
 };
 use std::collections::BTreeMap;
 use std::fs;
@@ -117,7 +117,7 @@ fn results() -> Results {
                 position: [0.0, 1.5, 4.0],
                 target: [0.0; 3],
                 up: [0.0, 1.0, 0.0],
-                fov_y_deg: 45.0,
+                lens: LensFacts::FovYDeg(45.0),
             },
             bounds: BoundsFacts { min: [-1.0; 3], max: [1.0; 3] },
         },

@@ -1,6 +1,6 @@
 //! Scenes as binary glTF, for other programs and for [`import`](crate::import).
 
-use crate::{AlphaMode, Camera, Image, Light, Material, Mesh, Scene, SceneError};
+use crate::{Aabb, AlphaMode, Camera, Image, Light, Material, Mesh, Projection, Scene, SceneError};
 use glam::{Mat4, Vec2, Vec3, Vec4};
 use serde_json::{Value, json};
 
@@ -88,15 +88,7 @@ pub fn glb(scene: &Scene) -> Result<Vec<u8>, ExportError> {
     let wrap = |repeats: bool| if repeats { REPEAT } else { CLAMP_TO_EDGE };
     let sampler = |i: &Image| json!({ "wrapS": wrap(i.repeat[0]), "wrapT": wrap(i.repeat[1]) });
     put("samplers", scene.images.iter().map(sampler).collect());
-    let perspective = |c: &Camera| json!({ "yfov": c.fov_y, "znear": 0.01 });
-    put(
-        "cameras",
-        scene
-            .cameras
-            .iter()
-            .map(|c| json!({ "type": "perspective", "perspective": perspective(c) }))
-            .collect(),
-    );
+    put("cameras", scene.cameras.iter().map(|c| camera(c, scene)).collect());
     let nodes = nodes(scene, &places);
     put("scenes", vec![json!({ "name": scene.name, "nodes": (0..nodes.len()).collect::<Vec<_>>() })]);
     put("nodes", nodes);
@@ -193,6 +185,21 @@ fn material(material: &Material) -> Value {
         out["alphaCutoff"] = json!(cutoff);
     }
     out
+}
+
+fn camera(camera: &Camera, scene: &Scene) -> Value {
+    match camera.projection {
+        Projection::Perspective { fov_y } => {
+            json!({ "type": "perspective", "perspective": { "yfov": fov_y, "znear": 0.01 } })
+        }
+        // The format asks for a width, here of a picture of 4:3, and for a far plane, here behind everything.
+        Projection::Orthographic { height } => {
+            let reach = |bounds: Aabb| bounds.center().distance(camera.position) + bounds.radius();
+            let (xmag, ymag, far) = (height * 2.0 / 3.0, height / 2.0, scene.bounds().map_or(1.0, reach));
+            let lens = json!({ "xmag": xmag, "ymag": ymag, "znear": 0.0, "zfar": far.max(1e-3) });
+            json!({ "type": "orthographic", "orthographic": lens })
+        }
+    }
 }
 
 fn light(light: &Light) -> Value {

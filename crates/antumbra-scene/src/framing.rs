@@ -1,6 +1,6 @@
 //! A camera and a sun for scenes that bring none.
 
-use crate::{Aabb, Camera, Light, Scene};
+use crate::{Aabb, Camera, Light, Projection, Scene};
 use glam::{Vec2, Vec3, Vec3Swizzles};
 
 /// From where the default camera looks: 35° to the right of +Z, about 30° above the horizon.
@@ -46,7 +46,8 @@ impl Scene {
             .into_iter()
             .fold(0.0, f32::max);
         let distance = if distance > 0.0 { distance } else { 1.0 };
-        Camera { position: center + backward * distance, target: center, up: Vec3::Y, fov_y: FOV_Y }
+        let projection = Projection::Perspective { fov_y: FOV_Y };
+        Camera { position: center + backward * distance, target: center, up: Vec3::Y, projection }
     }
 
     /// A sun from the upper left behind the first camera (or the default one), 45° above the
@@ -88,7 +89,7 @@ mod tests {
             let forward = (camera.target - camera.position).normalize();
             let right = forward.cross(camera.up).normalize();
             let up = right.cross(forward);
-            let slope = (camera.fov_y * 0.5).tan();
+            let slope = (FOV_Y * 0.5).tan();
             for p in scene.flatten().positions {
                 let offset = p - camera.position;
                 let depth = offset.dot(forward);

@@ -30,5 +30,5 @@ mod scene;
 mod validate;
 
 pub use geometry::{Aabb, Geometry};
-pub use scene::{AlphaMode, Camera, Image, Instance, Light, Material, Mesh, Scene};
+pub use scene::{AlphaMode, Camera, Image, Instance, Light, Material, Mesh, Projection, Scene};
 pub use validate::SceneError;

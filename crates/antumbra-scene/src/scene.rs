@@ -113,17 +113,56 @@ pub struct Image {
     pub repeat: [bool; 2],
 }
 
-/// A pinhole camera.
+/// A camera that looks from its position at its target.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Camera {
-    /// World position of the eye.
+    /// World position of the eye; of an orthographic camera the middle of the plane on which its rays
+    /// begin.
     pub position: Vec3,
     /// World point in the middle of the picture.
     pub target: Vec3,
-    /// Roughly up; not parallel to the line of sight.
+    /// Upwards in the picture, roughly: turned about the line of sight it rolls the camera. Not parallel
+    /// to the line of sight.
     pub up: Vec3,
-    /// Vertical field of view, radians.
-    pub fov_y: f32,
+    /// How the world becomes a picture.
+    pub projection: Projection,
+}
+
+/// How the world becomes a picture; the picture's width follows from its ratio of sides.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Projection {
+    /// Rays meet in the eye.
+    Perspective {
+        /// Vertical field of view, radians, more than 0 and less than π.
+        fov_y: f32,
+    },
+    /// Rays are parallel.
+    Orthographic {
+        /// Height of the picture in the scene's unit, more than 0.
+        height: f32,
+    },
+}
+
+impl Projection {
+    /// Whether a picture can be made with it: its number is in range.
+    #[must_use]
+    pub fn is_usable(&self) -> bool {
+        match *self {
+            Self::Perspective { fov_y } => fov_y > 0.0 && fov_y < std::f32::consts::PI,
+            Self::Orthographic { height } => height > 0.0 && height.is_finite(),
+        }
+    }
+
+    /// Width of a pixel, in the scene's unit, at a distance along the line of sight, in a picture of
+    /// `rows` rows.
+    #[must_use]
+    pub fn pixel_size(&self, distance: f64, rows: u32) -> f64 {
+        let height = match *self {
+            Self::Perspective { fov_y } => 2.0 * (0.5 * f64::from(fov_y)).tan() * distance,
+            Self::Orthographic { height } => height.into(),
+        };
+        height / f64::from(rows)
+    }
 }
 
 /// A light, in world space. Directions point the way the light travels.

@@ -1,6 +1,6 @@
 //! What makes a scene unfit for raster and rays.
 
-use crate::{Light, Mesh, Scene};
+use crate::{Light, Mesh, Projection, Scene};
 use glam::Vec3;
 
 /// Why a scene cannot be used. Each message names the element, its value and what is allowed.
@@ -227,8 +227,14 @@ impl Scene {
             if forward.normalize_or_zero().cross(camera.up.normalize_or_zero()).length() < 1e-6 {
                 return bad(what, "up must not be parallel to the line from position to target");
             }
-            if !(camera.fov_y > 0.0 && camera.fov_y < std::f32::consts::PI) {
-                return bad(what, "fov_y must lie between 0 and π");
+            if !camera.projection.is_usable() {
+                return bad(
+                    what,
+                    match camera.projection {
+                        Projection::Perspective { .. } => "fov_y must lie between 0 and π",
+                        Projection::Orthographic { .. } => "height must be finite and more than 0",
+                    },
+                );
             }
         }
         for (index, light) in self.lights.iter().enumerate() {
@@ -348,7 +354,11 @@ mod tests {
 
     #[test]
     fn views_must_be_usable() {
-        assert!(message(|s| s.cameras[0].fov_y = 0.0).starts_with("cameras[0]: fov_y"));
+        let lens = |projection| message(|s| s.cameras[0].projection = projection);
+        assert!(lens(Projection::Perspective { fov_y: 0.0 }).starts_with("cameras[0]: fov_y"));
+        for height in [0.0, -1.0, f32::INFINITY, f32::NAN] {
+            assert!(lens(Projection::Orthographic { height }).starts_with("cameras[0]: height"), "{height}");
+        }
         assert!(message(|s| s.cameras[0].target = s.cameras[0].position + Vec3::Y).contains("up must not"));
         let long = Light::Directional { direction: Vec3::splat(2.0) };
         assert_eq!(message(|s| s.lights[0] = long), "lights[0]: direction must have length 1");

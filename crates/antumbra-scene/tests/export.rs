@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
 
 use antumbra_scene::{
-    AlphaMode, Camera, Geometry, Image, Instance, Light, Material, Mesh, Scene,
+    AlphaMode, Camera, Geometry, Image, Instance, Light, Material, Mesh, Projection, Scene,
     export::{self, ExportError},
     import, procedural,
 };
@@ -12,7 +12,7 @@ use glam::{Mat4, Quat, Vec2, Vec3, Vec4};
 fn same_camera(a: &Camera, b: &Camera) {
     let forward = |c: &Camera| (c.target - c.position).normalize();
     let right = |c: &Camera| forward(c).cross(c.up).normalize();
-    assert!(a.position == b.position && a.fov_y == b.fov_y);
+    assert!(a.position == b.position && a.projection == b.projection);
     assert!(forward(a).distance(forward(b)) < 1e-6 && right(a).distance(right(b)) < 1e-6);
 }
 
@@ -103,6 +103,15 @@ fn cut_out() -> Scene {
         images: vec![image],
         ..Scene::default()
     }
+}
+
+#[test]
+fn orthographic_and_rolled_cameras_come_back() {
+    let mut scene = procedural::by_name("contact").unwrap().scene(1);
+    let first = scene.cameras[0];
+    scene.cameras.push(Camera { up: Vec3::new(0.3, 0.8, -0.1), ..first });
+    scene.cameras.push(Camera { projection: Projection::Orthographic { height: 2.5 }, ..first });
+    again(&scene);
 }
 
 #[test]

@@ -4,7 +4,7 @@
 
 mod common;
 
-use antumbra_scene::{AlphaMode, Geometry, Light, Scene, import};
+use antumbra_scene::{AlphaMode, Geometry, Light, Projection, Scene, import};
 use common::{SQUARE, base64, floats, glb, quad, quad_bytes, shorts, with_buffer};
 use glam::{Vec2, Vec3};
 use serde_json::{Value, json};
@@ -264,7 +264,10 @@ fn cameras_and_lights() {
     assert_eq!(scene.lights[0], Light::Directional { direction: Vec3::NEG_Z });
     let Light::Spot { direction, outer_angle, .. } = scene.lights[1] else { panic!("not a spot") };
     assert!(direction.distance(Vec3::NEG_Y) < 1e-6 && outer_angle == 0.3);
-    assert_eq!(scene.notes.len(), 2, "the orthographic camera and the point light: {:?}", scene.notes);
+    let down = scene.cameras[1];
+    assert_eq!(down.projection, Projection::Orthographic { height: 2.0 });
+    assert!(down.target.distance(Vec3::NEG_Y) < 1e-6 && down.up.distance(Vec3::NEG_Z) < 1e-6, "{down:?}");
+    assert_eq!(scene.notes.len(), 1, "the point light: {:?}", scene.notes);
 }
 
 #[test]

@@ -38,17 +38,17 @@ pub enum TruthError {
     },
     /// A camera that sees nothing definite.
     #[error(
-        "the camera at {position} looking at {target} ({width}×{height} pixels, field of view \
-         {fov_y} rad) spans no picture; position, target and up must be finite and not in line, \
-         the field of view in (0, π), and both sizes at least 1"
+        "the camera at {position} looking at {target} ({width}×{height} pixels, {projection:?}) spans no \
+         picture; position, target and up must be finite and not in line, the field of view in (0, π) rad \
+         or the height finite and above 0, and both sizes at least 1"
     )]
     BadCamera {
         /// Eye.
         position: glam::Vec3,
         /// Point looked at.
         target: glam::Vec3,
-        /// Vertical field of view, radians.
-        fov_y: f32,
+        /// Field of view or height.
+        projection: antumbra_scene::Projection,
         /// Pixels across.
         width: u32,
         /// Pixels down.

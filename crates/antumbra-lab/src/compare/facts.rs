@@ -4,13 +4,13 @@ use super::{Rendered, Request};
 use crate::{
     gpu::Gpu,
     results::{
-        AdapterFacts, BoundsFacts, CameraFacts, Family, Lifetime, LightFacts, MemoryItem, MemoryResult,
-        SceneFacts, TechniqueResult, TimeResult, Work,
+        AdapterFacts, BoundsFacts, CameraFacts, Family, LensFacts, Lifetime, LightFacts, MemoryItem,
+        MemoryResult, SceneFacts, TechniqueResult, TimeResult, Work,
     },
     room::Room,
 };
 use antumbra::{Memory, ShadowMap, technique};
-use antumbra_scene::Light;
+use antumbra_scene::{Light, Projection};
 use anyhow::{Context, Result};
 
 /// One entry of the results.
@@ -122,7 +122,10 @@ pub(super) fn scene(request: &Request) -> Result<SceneFacts> {
             position: camera.position.to_array(),
             target: camera.target.to_array(),
             up: camera.up.to_array(),
-            fov_y_deg: camera.fov_y.to_degrees(),
+            lens: match camera.projection {
+                Projection::Perspective { fov_y } => LensFacts::FovYDeg(fov_y.to_degrees()),
+                Projection::Orthographic { height } => LensFacts::Height(height),
+            },
         },
         bounds: BoundsFacts { min: bounds.min.to_array(), max: bounds.max.to_array() },
     })

@@ -81,12 +81,11 @@ impl<'a> Truths<'a> {
         let rays = CameraRays::new(&frame.camera, width, height)?;
         let hits = self.tracer.primary(&rays);
         let eye = frame.camera.position.as_dvec3();
-        // A pixel's width at distance 1.
-        let pixel = 2.0 * (0.5 * f64::from(frame.camera.fov_y)).tan() / f64::from(height);
+        let pixel = |distance| frame.camera.projection.pixel_size(distance, height);
         let same = |(hit, drawn): (&Hit, &Option<Vec3>)| match drawn {
             Some(drawn) if hit.is_hit() => {
                 let arm = hit.position - eye;
-                arm.distance(drawn.as_dvec3()) < 0.5 * pixel * arm.length()
+                arm.distance(drawn.as_dvec3()) < 0.5 * pixel(arm.length())
             }
             _ => false,
         };

@@ -43,7 +43,7 @@ fn tone(c: vec3f) -> vec3f {
 @fragment fn fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let pixel = vec2i(position.xy);
     let at = textureLoad(relative, pixel, 0);
-    let ray = normalize(frame.ray.xyz + frame.ray_right.xyz * position.x + frame.ray_down.xyz * position.y);
+    let ray = normalize(frame_ray(frame, position.xy).direction);
     if at.w == 0.0 {
         return vec4f(tone(0.9 * sky(ray)), 1.0);
     }

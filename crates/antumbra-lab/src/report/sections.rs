@@ -2,7 +2,7 @@
 
 use super::table::family;
 use super::text::{bytes, count, escape, label, list, percent, seconds, significant};
-use crate::results::{LightFacts, Results, TechniqueResult};
+use crate::results::{LensFacts, LightFacts, Results, TechniqueResult};
 
 fn vector([x, y, z]: [f32; 3]) -> String {
     let short = |v: f32| significant(f64::from(v)).trim_end_matches('0').trim_end_matches('.').to_owned();
@@ -70,11 +70,14 @@ pub(super) fn truth(results: &Results) -> String {
         (
             "Camera",
             format!(
-                "at {} towards {}, up {}, vertical field of view {:.1}°",
+                "at {} towards {}, up {}, {}",
                 vector(camera.position),
                 vector(camera.target),
                 vector(camera.up),
-                camera.fov_y_deg
+                match camera.lens {
+                    LensFacts::FovYDeg(degrees) => format!("vertical field of view {degrees:.1}°"),
+                    LensFacts::Height(height) => format!("orthographic, picture {height} high"),
+                }
             ),
         ),
         ("Scene bounds", format!("{} to {}", vector(bounds.min), vector(bounds.max))),

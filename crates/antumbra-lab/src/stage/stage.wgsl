@@ -37,7 +37,8 @@ fn surface_of(in: Varying) -> Surface {
     if !(dot(across, across) > 0.0) {
         facet = normalize(in.normal);
     }
-    facet = select(facet, -facet, dot(facet, in.relative) > 0.0);
+    let sight = select(in.relative, frame.forward.xyz, frame.forward.w == 1.0);
+    facet = select(facet, -facet, dot(facet, sight) > 0.0);
     var shading = normalize(in.normal);
     shading = select(shading, -shading, dot(shading, facet) < 0.0);
     let albedo = material.base_color * in.color * textureSample(base_color, base_sampler, in.uv);

@@ -24,8 +24,8 @@ macro_rules! members {
 
 const WGSL: &str = include_str!("frame.wgsl");
 
-fn frame() -> [(&'static str, usize); 7] {
-    members!(Frame: clip_from_relative, eye, ray, ray_right, ray_down, to_light, cone)
+fn frame() -> [(&'static str, usize); 8] {
+    members!(Frame: clip_from_relative, eye, ray, ray_right, ray_down, to_light, cone, forward)
 }
 
 #[test]
@@ -43,7 +43,7 @@ fn another_layout_is_noticed() {
             "    ray_down: vec4f,\n    ray_right: vec4f,",
         ),
         WGSL.replace("    eye: vec4f,", "    eye: vec3f,\n    more: f32,"),
-        WGSL.replace("    cone: vec4f,", "    cone: vec4f,\n    more: f32,"),
+        WGSL.replace("    forward: vec4f,", "    forward: vec4f,\n    more: f32,"),
         WGSL.replace("struct Frame", "struct Fame"),
     ];
     for wgsl in broken {

@@ -35,10 +35,10 @@ pub fn load(path: impl AsRef<Path>) -> Result<Scene, ImportError> {
 /// root nodes if there is no scene, all meshes if there are no nodes either), indexed or not, sparse or not, quantised or not; nodes with
 /// matrices or TRS, mirrored or not; GPU instancing; skins and morph targets in the pose at rest;
 /// base colours with their texture transforms, cut-outs (`MASK`), two-sidedness; perspective
-/// cameras; directional and spot lights. Missing normals become flat ones, as the format demands.
+/// and orthographic cameras; directional and spot lights. Missing normals become flat ones, as the format demands.
 ///
 /// Changed or left out, with a line in [`Scene::notes`]: points and lines, `BLEND` (imported as
-/// opaque), orthographic cameras, point lights, undecodable images on opaque surfaces. Ignored:
+/// opaque), point lights, undecodable images on opaque surfaces. Ignored:
 /// animations, all material properties but the above, magnification filters (always linear).
 ///
 /// Extensions understood: `KHR_lights_punctual`, `KHR_mesh_quantization`, `KHR_texture_transform`,

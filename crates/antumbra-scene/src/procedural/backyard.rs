@@ -11,7 +11,7 @@ use super::{
     shed::{self, Paint},
     tree::{self, Generation},
 };
-use crate::{Camera, Light, Mesh, Scene};
+use crate::{Camera, Light, Mesh, Projection, Scene};
 use glam::{Mat4, Quat, Vec2, Vec3};
 use std::f32::consts::{FRAC_PI_2, TAU};
 
@@ -41,7 +41,7 @@ fn build(seed: u64) -> Scene {
             position: Vec3::new(-0.9, 2.9, 9.6),
             target: Vec3::new(0.25, 0.75, 0.0),
             up: Vec3::Y,
-            fov_y: 0.64,
+            projection: Projection::Perspective { fov_y: 0.64 },
         },
         Light::Directional { direction: Vec3::new(0.80, -0.62, -0.50).normalize() },
     )

@@ -8,7 +8,7 @@ use super::{
     random::Random,
     shapes::{self, Builder},
 };
-use crate::{Camera, Light, Scene};
+use crate::{Camera, Light, Projection, Scene};
 use glam::{Mat4, Vec3};
 
 pub(super) const BLOCKS: Procedural = Procedural {
@@ -48,7 +48,7 @@ fn build(seed: u64) -> Scene {
             position: Vec3::new(1.5, 2.9, 5.2),
             target: Vec3::new(0.05, 0.2, 0.05),
             up: Vec3::Y,
-            fov_y: 0.66,
+            projection: Projection::Perspective { fov_y: 0.66 },
         },
         Light::Directional { direction: Vec3::new(0.75, -1.0, 0.35).normalize() },
     )

@@ -9,7 +9,7 @@ use super::{
     random::Random,
     shapes::{self, Builder},
 };
-use crate::{Camera, Light, Mesh, Scene};
+use crate::{Camera, Light, Mesh, Projection, Scene};
 use glam::{Mat4, Vec3};
 use std::f32::consts::{FRAC_PI_2, PI, TAU};
 
@@ -113,7 +113,7 @@ fn build(seed: u64) -> Scene {
             position: Vec3::new(2.5, 3.8, 6.2),
             target: Vec3::new(0.12, 0.05, 0.2),
             up: Vec3::Y,
-            fov_y: 0.62,
+            projection: Projection::Perspective { fov_y: 0.62 },
         },
         Light::Spot {
             position: lamp,

@@ -11,7 +11,7 @@ use super::{
     random::Random,
     shapes::{self, Builder},
 };
-use crate::{Camera, Light, Scene};
+use crate::{Camera, Light, Projection, Scene};
 use glam::{Mat4, Quat, Vec3};
 use std::f32::consts::{FRAC_PI_2, TAU};
 
@@ -74,7 +74,7 @@ fn build(seed: u64) -> Scene {
             position: Vec3::new(-96.0, 62.0, 186.0),
             target: Vec3::new(-22.0, 4.0, 38.0),
             up: Vec3::Y,
-            fov_y: 0.62,
+            projection: Projection::Perspective { fov_y: 0.62 },
         },
         Light::Directional { direction: Vec3::new(0.72, -0.72, -0.24).normalize() },
     )

@@ -3,7 +3,7 @@
 //! filtered shadows fade where they should be darkest.
 
 use super::{Procedural, shapes};
-use crate::{Camera, Light, Scene};
+use crate::{Camera, Light, Projection, Scene};
 use glam::{Mat4, Vec3};
 
 pub(super) const CONTACT: Procedural = Procedural {
@@ -43,7 +43,7 @@ fn build(_seed: u64) -> Scene {
             position: Vec3::new(1.0, 2.6, 4.3),
             target: Vec3::new(0.25, 0.2, 0.0),
             up: Vec3::Y,
-            fov_y: 0.7,
+            projection: Projection::Perspective { fov_y: 0.7 },
         },
         Light::Directional { direction: Vec3::new(0.55, -1.0, -0.55).normalize() },
     )

@@ -8,7 +8,7 @@ use super::{
     shapes::{self, Builder},
     tree::{self, Generation},
 };
-use crate::{Camera, Light, Scene};
+use crate::{Camera, Light, Projection, Scene};
 use glam::{Mat4, Quat, Vec2, Vec3};
 use std::f32::consts::{FRAC_PI_2, TAU};
 
@@ -48,7 +48,7 @@ fn build(seed: u64) -> Scene {
             position: Vec3::new(2.4, 3.3, 12.2),
             target: Vec3::new(0.3, 0.85, 1.6),
             up: Vec3::Y,
-            fov_y: 0.62,
+            projection: Projection::Perspective { fov_y: 0.62 },
         },
         Light::Directional { direction: Vec3::new(0.62, -0.62, -0.72).normalize() },
     )

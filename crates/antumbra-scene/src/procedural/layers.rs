@@ -10,7 +10,7 @@ use super::{
     random::Random,
     shapes::{self, Builder},
 };
-use crate::{Camera, Light, Scene};
+use crate::{Camera, Light, Projection, Scene};
 use glam::{Mat4, Vec3};
 
 pub(super) const LAYERS: Procedural = Procedural {
@@ -46,7 +46,7 @@ fn build(seed: u64) -> Scene {
             position: Vec3::new(4.9, 5.3, 7.8),
             target: Vec3::new(-0.05, 1.15, 0.35),
             up: Vec3::Y,
-            fov_y: 0.68,
+            projection: Projection::Perspective { fov_y: 0.68 },
         },
         Light::Directional { direction: SUN.normalize() },
     )

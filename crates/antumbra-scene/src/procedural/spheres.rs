@@ -2,7 +2,7 @@
 //! silhouettes at many heights, so that every texel of the map is crossed at some angle.
 
 use super::{Procedural, random::Random, shapes};
-use crate::{Camera, Light, Scene};
+use crate::{Camera, Light, Projection, Scene};
 use glam::{Mat4, Vec3};
 
 pub(super) const SPHERES: Procedural = Procedural {
@@ -58,7 +58,7 @@ fn build(seed: u64) -> Scene {
             position: Vec3::new(1.5, 3.5, 7.6),
             target: Vec3::new(0.2, 1.05, 0.2),
             up: Vec3::Y,
-            fov_y: 0.7,
+            projection: Projection::Perspective { fov_y: 0.7 },
         },
         Light::Directional { direction: Vec3::new(0.62, -0.85, -0.45).normalize() },
     )

@@ -3,7 +3,7 @@
 //! [Donnelly and Lauritzen 2006, "Variance shadow maps", section 4].
 
 use super::{Procedural, random::Random, shapes};
-use crate::{Camera, Light, Scene};
+use crate::{Camera, Light, Projection, Scene};
 use glam::{Mat4, Vec3};
 
 pub(super) const SPOT: Procedural = Procedural {
@@ -54,7 +54,7 @@ fn build(seed: u64) -> Scene {
             position: Vec3::new(2.9, 2.5, 5.4),
             target: Vec3::new(-0.2, 0.8, -1.2),
             up: Vec3::Y,
-            fov_y: 0.66,
+            projection: Projection::Perspective { fov_y: 0.66 },
         },
         Light::Spot {
             position,

@@ -9,7 +9,7 @@ use super::{
     random::Random,
     shapes::{self, Builder},
 };
-use crate::{Camera, Light, Mesh, Scene};
+use crate::{Camera, Light, Mesh, Projection, Scene};
 use glam::{DQuat, DVec3, Mat4, Vec3};
 use std::f64::consts::TAU;
 
@@ -43,7 +43,7 @@ fn build(seed: u64) -> Scene {
             position: Vec3::new(1.5, 2.5, 4.3),
             target: Vec3::new(0.45, 0.8, -0.1),
             up: Vec3::Y,
-            fov_y: 0.66,
+            projection: Projection::Perspective { fov_y: 0.66 },
         },
         Light::Directional { direction: Vec3::new(0.72, -0.82, -0.28).normalize() },
     )

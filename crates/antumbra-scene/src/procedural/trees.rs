@@ -9,7 +9,7 @@ use super::{
     random::Random,
     shapes::{self, Builder},
 };
-use crate::{Camera, Light, Scene};
+use crate::{Camera, Light, Projection, Scene};
 use glam::{Mat4, Vec3};
 use std::f32::consts::TAU;
 
@@ -68,7 +68,7 @@ fn build(seed: u64) -> Scene {
             position: Vec3::new(1.9, 5.2, 11.9),
             target: Vec3::new(0.7, 1.68, -0.6),
             up: Vec3::Y,
-            fov_y: 0.60,
+            projection: Projection::Perspective { fov_y: 0.60 },
         },
         Light::Directional { direction: Vec3::new(0.85, -0.52, 0.22).normalize() },
     )

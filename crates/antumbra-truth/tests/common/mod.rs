@@ -1,7 +1,7 @@
 //! Small scenes with known shadows.
 #![allow(dead_code, unreachable_pub, clippy::unwrap_used, reason = "every test file uses its own part")]
 
-use antumbra_scene::{Camera, Geometry, Light, Material};
+use antumbra_scene::{Camera, Geometry, Light, Material, Projection};
 use antumbra_truth::CameraRays;
 use glam::{DVec3, Vec2, Vec3, Vec4};
 
@@ -69,7 +69,8 @@ pub fn zoom(position: DVec3, target: DVec3, width: f64) -> CameraRays {
 
 fn with_fov(position: DVec3, target: DVec3, size: [u32; 2], fov_y: f64) -> CameraRays {
     let up = if (target - position).normalize().y.abs() > 0.99 { Vec3::Z } else { Vec3::Y };
-    let camera = Camera { position: position.as_vec3(), target: target.as_vec3(), up, fov_y: fov_y as f32 };
+    let projection = Projection::Perspective { fov_y: fov_y as f32 };
+    let camera = Camera { position: position.as_vec3(), target: target.as_vec3(), up, projection };
     CameraRays::new(&camera, size[0], size[1]).unwrap()
 }
 

@@ -113,6 +113,13 @@ pub(super) struct Camera {
     #[serde(rename = "type")]
     pub(super) kind: String,
     pub(super) perspective: Option<Perspective>,
+    pub(super) orthographic: Option<Orthographic>,
+}
+
+#[derive(Debug, Deserialize)]
+pub(super) struct Orthographic {
+    /// Half of the picture's height.
+    pub(super) ymag: f64,
 }
 
 #[derive(Debug, Deserialize)]

@@ -2,34 +2,33 @@
 
 use super::accessor::{Asset, follow};
 use super::container;
-use super::document::{LightUse, Lights};
+use super::document::{self, LightUse, Lights};
 use crate::import::error::Problem;
-use crate::{Camera, Light, Scene};
+use crate::{Camera, Light, Projection, Scene};
 use glam::{DMat4, DVec3};
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::FRAC_PI_2;
 
 const LIGHTS: &str = "KHR_lights_punctual";
 
 impl Asset {
-    /// Adds the camera of a node, if it has one that is a pinhole.
+    /// Adds the camera of a node, if it has one with a picture.
     pub(super) fn add_camera(&self, scene: &mut Scene, node: usize, world: DMat4) -> Result<(), Problem> {
         let Some(index) = self.document.nodes[node].camera else { return Ok(()) };
         let camera = follow(&self.document.cameras, "cameras", index, &format!("nodes[{node}].camera"))?;
-        let yfov = camera.perspective.as_ref().map_or(0.0, |p| p.yfov);
         let axes = [-DVec3::Z, DVec3::Y].map(|axis| world.transform_vector3(axis).try_normalize());
-        match axes {
-            [Some(forward), Some(up)] if yfov > 0.0 && yfov < PI && forward.cross(up).length() > 1e-3 => {
+        match (axes, projection(camera)) {
+            ([Some(forward), Some(up)], Some(projection)) if forward.cross(up).length() > 1e-3 => {
                 let position = world.w_axis.truncate();
                 scene.cameras.push(Camera {
                     position: position.as_vec3(),
                     target: (position + forward).as_vec3(),
                     up: up.as_vec3(),
-                    fov_y: yfov as f32,
+                    projection,
                 });
             }
             _ => scene.notes.push(format!(
-                "cameras[{index}] ({}, yfov {yfov}) is left out: only perspective cameras with a yfov between 0 \
-                 and π in an unskewed place are taken",
+                "cameras[{index}] ({}) is left out: only perspective cameras with a yfov between 0 and π and \
+                 orthographic ones with a ymag above 0, in an unskewed place, are taken",
                 camera.kind
             )),
         }
@@ -68,4 +67,13 @@ impl Asset {
         }
         Ok(())
     }
+}
+
+fn projection(camera: &document::Camera) -> Option<Projection> {
+    let projection = match (camera.kind.as_str(), &camera.perspective, &camera.orthographic) {
+        ("perspective", Some(lens), _) => Projection::Perspective { fov_y: lens.yfov as f32 },
+        ("orthographic", _, Some(lens)) => Projection::Orthographic { height: 2.0 * lens.ymag as f32 },
+        _ => return None,
+    };
+    projection.is_usable().then_some(projection)
 }

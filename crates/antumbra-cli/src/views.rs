@@ -1,0 +1,169 @@
+//! Cameras and lights from what the command line says of them.
+
+use antumbra_scene::{Camera, Light, Projection, Scene};
+use anyhow::{Context, Result, bail};
+use glam::{Quat, Vec3};
+
+/// The way `--camera` is written, for errors.
+const CAMERA: &str = "write eye:target, eye:target:degrees or eye:target:degrees:roll, for example 3,2,5:0,1,0:50, \
+                      or ortho:eye:target:height or ortho:eye:target:height:roll, for example \
+                      ortho:3,2,5:0,1,0:4";
+
+/// The camera that `--camera` names or describes.
+pub(crate) fn camera(text: &str, scene: &Scene) -> Result<Camera> {
+    if let Ok(index) = text.parse::<usize>() {
+        let count = scene.cameras.len();
+        return scene
+            .cameras
+            .get(index)
+            .copied()
+            .with_context(|| format!("the file has {count} cameras, from 0"));
+    }
+    let (is_parallel, text) = text.strip_prefix("ortho:").map_or((false, text), |rest| (true, rest));
+    let parts: Vec<&str> = text.split(':').collect();
+    let (eye, target, lens, roll) = match parts[..] {
+        [eye, target] if !is_parallel => (eye, target, "50", "0"),
+        [eye, target, lens] => (eye, target, lens, "0"),
+        [eye, target, lens, roll] => (eye, target, lens, roll),
+        _ => bail!(CAMERA),
+    };
+    let (eye, target) = (vector(eye)?, vector(target)?);
+    let projection = if is_parallel {
+        Projection::Orthographic { height: length(lens)? }
+    } else {
+        Projection::Perspective { fov_y: degrees(lens, 170.0)? }
+    };
+    if eye == target {
+        bail!("eye and target are the same point {eye}");
+    }
+    let forward = (target - eye)
+        .try_normalize()
+        .with_context(|| format!("eye {eye} and target {target} are too near or too far from each other"))?;
+    let upright = if forward.y.abs() > 0.999 { Vec3::Z } else { Vec3::Y };
+    Ok(Camera { position: eye, target, up: rolled(upright, forward, roll)?, projection })
+}
+
+/// The upward direction of a camera that is turned clockwise by so many degrees.
+fn rolled(up: Vec3, forward: Vec3, degrees: &str) -> Result<Vec3> {
+    match degrees.parse::<f32>() {
+        Ok(0.0) => Ok(up),
+        Ok(roll) if roll.abs() <= 360.0 => {
+            // About the line of sight, which must not carry what is along it.
+            let across = (up - forward * up.dot(forward)).normalize();
+            Ok(Quat::from_axis_angle(forward, roll.to_radians()) * across)
+        }
+        _ => bail!("roll '{degrees}' is not an angle from -360 to 360 degrees"),
+    }
+}
+
+/// The light that `--light` names or describes.
+pub(crate) fn light(text: &str, scene: &Scene) -> Result<Light> {
+    if let Ok(index) = text.parse::<usize>() {
+        let count = scene.lights.len();
+        return scene
+            .lights
+            .get(index)
+            .copied()
+            .with_context(|| format!("the file has {count} lights, from 0"));
+    }
+    let direction = |text: &str| -> Result<Vec3> {
+        let direction = vector(text)?;
+        direction
+            .try_normalize()
+            .with_context(|| format!("direction {text} has no length, or one beyond what an f32 holds"))
+    };
+    let Some(spot) = text.strip_prefix("spot:") else {
+        return Ok(Light::Directional { direction: direction(text)? });
+    };
+    let parts: Vec<&str> = spot.split(':').collect();
+    let [position, axis, angle] = parts[..] else {
+        bail!("write spot:position:direction:degrees, for example spot:0,4,0:0,-1,0:35");
+    };
+    Ok(Light::Spot {
+        position: vector(position)?,
+        direction: direction(axis)?,
+        outer_angle: degrees(angle, 80.0)?,
+    })
+}
+
+fn vector(text: &str) -> Result<Vec3> {
+    let parts: Vec<f32> = text.split(',').filter_map(|n| n.trim().parse().ok()).collect();
+    match parts[..] {
+        [x, y, z] if text.split(',').count() == 3 && Vec3::new(x, y, z).is_finite() => Ok(Vec3::new(x, y, z)),
+        _ => bail!("'{text}' is not three finite numbers x,y,z"),
+    }
+}
+
+fn degrees(text: &str, most: f32) -> Result<f32> {
+    match text.parse::<f32>() {
+        Ok(degrees) if degrees > 0.0 && degrees <= most => Ok(degrees.to_radians()),
+        _ => bail!("'{text}' is not an angle of more than 0 and at most {most} degrees"),
+    }
+}
+
+fn length(text: &str) -> Result<f32> {
+    match text.parse::<f32>() {
+        Ok(length) if length > 0.0 && length.is_finite() => Ok(length),
+        _ => bail!("height '{text}' is not a finite number above 0"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use antumbra_scene::procedural;
+
+    fn contact() -> Scene {
+        procedural::by_name("contact").unwrap().scene(1)
+    }
+
+    #[test]
+    fn cameras_and_lights_are_read() {
+        let scene = contact();
+        let read = camera("3,2,5:0,1,0:50", &scene).unwrap();
+        assert_eq!((read.position, read.target, read.up), (Vec3::new(3.0, 2.0, 5.0), Vec3::Y, Vec3::Y));
+        assert_eq!(read.projection, Projection::Perspective { fov_y: 50f32.to_radians() });
+        assert_eq!(camera("3,2,5:0,1,0", &scene).unwrap(), read);
+        assert_eq!(camera("3,2,5:0,1,0:50:0", &scene).unwrap(), read);
+        let parallel = camera("ortho:3,2,5:0,1,0:4", &scene).unwrap();
+        assert_eq!(parallel, Camera { projection: Projection::Orthographic { height: 4.0 }, ..read });
+        assert!(camera("-1,2,3:0,0,0", &scene).is_ok() && camera("0", &scene).is_ok());
+        assert!(matches!(light("0.3,-1,0", &scene).unwrap(), Light::Directional { .. }));
+        assert!(matches!(light("spot:0,4,0:0,-1,0:35", &scene).unwrap(), Light::Spot { .. }));
+    }
+
+    #[test]
+    fn a_camera_rolls_clockwise() {
+        for text in ["0,0,5:0,0,0:50:90", "ortho:0,0,5:0,0,0:4:90", "ortho:0,0,5:0,0,0:4:-270"] {
+            let up = camera(text, &contact()).unwrap().up;
+            assert!(up.distance(Vec3::X) < 1e-6, "{text}: {up}; its head leans to the right");
+        }
+    }
+
+    #[test]
+    fn unreadable_ones_are_refused_with_an_example() {
+        let scene = contact();
+        for text in [
+            "",
+            "1,2",
+            "1,2,3",
+            "1,2,3:1,2,3",
+            "1,2,nan:0,0,0",
+            "3e38,0,0:-3e38,0,0",
+            "1,2,3:0,0,0:0",
+            "1,2,3:0,0,0:inf",
+            "1,2,3:0,0,0:50:x",
+            "1,2,3:0,0,0:50:400",
+            "1,2,3:0,0,0:50:0:0",
+            "ortho:1,2,3:0,0,0",
+            "ortho:1,2,3:0,0,0:0",
+            "ortho:1,2,3:0,0,0:inf",
+            "99",
+        ] {
+            assert!(camera(text, &scene).is_err(), "{text}");
+        }
+        for text in ["", "0,0,0", "spot:1,2,3", "spot:0,0,0:0,-1,0:95", "1,2,x", "77"] {
+            assert!(light(text, &scene).is_err(), "{text}");
+        }
+    }
+}
