@@ -41,7 +41,7 @@ impl Frame {
         let (half, is_parallel, lens) = match camera.projection {
             Projection::Perspective { fov_y } => {
                 let half = (fov_y / 2.0).tan();
-                let near = near(geometry, camera.position, half, aspect);
+                let near = near(geometry, camera.position);
                 (half, false, rh::proj::directx::perspective_infinite_reverse(fov_y, aspect, near))
             }
             Projection::Orthographic { height } => {
@@ -85,10 +85,12 @@ fn far(geometry: &Geometry, eye: Vec3, forward: Vec3) -> f32 {
     if far > 0.0 { far * 1.001 } else { 1.0 }
 }
 
-/// A near plane that cuts off nothing: closer than the nearest triangle, seen in a corner of the picture.
-/// Where the eye lies on a surface it is a rounding error away.
-fn near(geometry: &Geometry, eye: Vec3, half: f32, aspect: f32) -> f32 {
-    let corner = Vec3::new(half * aspect, half, 1.0).length();
+/// A near plane that cuts off nothing: a hundredth of the distance to the nearest triangle at most, which
+/// is less than the cosine in a corner of any picture. Powers of two, so that it rests while the camera
+/// moves a little; so close that light views fitted to the picture do not tell it from the eye. Where the
+/// eye lies on a surface it is a rounding error away.
+fn near(geometry: &Geometry, eye: Vec3) -> f32 {
     let rounding = f32::EPSILON * eye.abs().max_element().max(1e-25);
-    (0.5 * nearest::distance(geometry, eye) / corner).max(rounding)
+    let near = 0.01 * nearest::distance(geometry, eye).min(f32::MAX);
+    near.max(rounding).log2().floor().exp2()
 }
