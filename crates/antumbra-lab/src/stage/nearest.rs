@@ -1,27 +1,29 @@
 //! How far a point is from the nearest triangle.
 
 use antumbra_scene::Geometry;
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 /// Distance from a point to the nearest triangle; infinite if there are none.
 ///
 /// Cost: some 5 ns a triangle.
 pub(super) fn distance(geometry: &Geometry, point: Vec3) -> f32 {
-    let mut least = f32::INFINITY;
+    // Squares of single precision would leave its range in very large and very small scenes.
+    let point = point.as_dvec3();
+    let mut least = f64::INFINITY;
     for t in 0..geometry.triangle_count() {
-        let [a, b, c] = geometry.triangle(t).map(|corner| corner - point);
-        let outside = a.min(b).min(c).max(-a.max(b).max(c)).max(Vec3::ZERO);
+        let [a, b, c] = geometry.triangle(t).map(|corner| corner.as_dvec3() - point);
+        let outside = a.min(b).min(c).max(-a.max(b).max(c)).max(DVec3::ZERO);
         if outside.length_squared() < least * least {
             least = least.min(closest([a, b, c]).length());
         }
     }
-    least
+    least as f32
 }
 
 /// The point of a triangle that is closest to the origin (Ericson, Real-Time Collision Detection, 5.1.5).
-fn closest([a, b, c]: [Vec3; 3]) -> Vec3 {
+fn closest([a, b, c]: [DVec3; 3]) -> DVec3 {
     let (ab, ac) = (b - a, c - a);
-    let along = |p: Vec3| (-ab.dot(p), -ac.dot(p));
+    let along = |p: DVec3| (-ab.dot(p), -ac.dot(p));
     let ((a1, a2), (b1, b2), (c1, c2)) = (along(a), along(b), along(c));
     let (of_c, of_b, of_a) = (a1 * b2 - b1 * a2, c1 * a2 - a1 * c2, b1 * c2 - c1 * b2);
     if a1 <= 0.0 && a2 <= 0.0 {
@@ -61,6 +63,12 @@ mod tests {
             (Vec3::new(1.0, 1.0, 0.0), 0.0),
         ] {
             assert!((distance(&geometry, point) - expected).abs() < 1e-5, "{point}");
+        }
+        for scale in [1e-30, 1e30] {
+            let positions = geometry.positions.iter().map(|p| *p * scale).collect();
+            let scaled = Geometry { positions, ..geometry.clone() };
+            let share = distance(&scaled, Vec3::new(-3.0, 2.0, 4.0) * scale) / (5.0 * scale);
+            assert!((share - 1.0).abs() < 1e-5, "{scale}: {share}");
         }
         // Without area it still has edges.
         let line = Geometry { indices: vec![0, 1, 1], ..geometry };
