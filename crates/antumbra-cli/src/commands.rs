@@ -5,6 +5,7 @@ use crate::{
     names,
 };
 use antumbra::SettingError;
+use antumbra_lab::results::LeftOut;
 use anyhow::Result;
 use clap::CommandFactory;
 use std::io::Write;
@@ -52,6 +53,18 @@ pub(crate) fn run(arguments: Arguments) -> Result<()> {
 fn command_given() -> Vec<String> {
     let arguments = std::env::args_os().skip(1).map(|argument| argument.to_string_lossy().into_owned());
     std::iter::once("antumbra".to_string()).chain(arguments).collect()
+}
+
+/// Says which techniques were left out, and why.
+fn note_left_out(left_out: &[LeftOut]) {
+    for left_out in left_out {
+        let _ = writeln!(std::io::stderr(), "note: left out: {left_out}");
+    }
+}
+
+/// Rows of a table for them.
+fn left_out_rows(left_out: &[LeftOut]) -> impl Iterator<Item = Vec<String>> {
+    left_out.iter().map(|LeftOut { spec, reason }| vec![spec.clone(), format!("left out: {reason}")])
 }
 
 /// What was probably meant, for an error about a name.

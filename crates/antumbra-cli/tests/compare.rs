@@ -29,7 +29,7 @@ fn main() {
     let mut trials = Trials::default();
     trials.add("comparison_and_its_report", |_| comparison());
     trials.add("pictures", |_| pictures());
-    trials.add("triangles_without_room", |_| room());
+    trials.add("capacity_follows_from_the_scene", |_| capacity());
     trials.add("times", |_| times());
     trials.add("info", |_| {
         let info = json(&["info", "--json"]);
@@ -85,18 +85,18 @@ fn lists() {
     folder.run(&["completions", "sh"]).refusal(&["'sh'", "bash"]);
 }
 
-/// Light that leaks for want of room is told, with what to set.
-fn room() {
-    let folder = Folder::new();
-    let render = |spec: &str| {
-        let options = ["--resolution", "64x48", "--size", "64", "-t", spec, "-o", "a.png"];
-        folder.run(&[&["render", "contact"], &options[..]].concat())
-    };
-    let short = render("exact.triangles=5");
-    assert_eq!(short.code, Some(0), "{}", short.err);
-    let words = ["exact.triangles=5", "no room for 17 triangles", "set triangles=17 (is 5)"];
-    assert!(words.iter().all(|word| short.err.contains(word)), "{}", short.err);
-    render("exact.triangles=17").good();
+/// More triangles share the texels of so small a map than there is memory for at first.
+fn capacity() {
+    let command = "compare spheres --techniques hard exact dpm --resolution 64x48 --size 24 --rounds 1 --grid 1 \
+                   -o report --json";
+    let arguments: Vec<&str> = command.split_whitespace().collect();
+    let results: Results = serde_json::from_str(&Folder::new().run(&arguments).good()).unwrap();
+    assert!(results.techniques.iter().all(|t| t.invalid.is_none()) && results.left_out.is_empty());
+    let exact = technique(&results, "exact");
+    let held = exact.explain.iter().find(|line| line.starts_with("lists held")).unwrap();
+    let mean: f64 = held.split(", ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
+    assert!(mean > 6.0, "the first guess would have done: {held}");
+    assert!(exact.scores.hard.pixel_match > 0.995, "{}", exact.scores.hard.pixel_match);
 }
 
 fn export() {

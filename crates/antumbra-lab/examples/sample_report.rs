@@ -262,7 +262,7 @@ fn technique(s: &Sample, truth: &Truth, images: &mut Images) -> Result<Technique
             "Sample data: times and memory are made up.".into(),
             "Filters 32-bit floats in hardware.".into(),
         ],
-        shortage: None,
+        invalid: None,
         images: names,
     })
 }
@@ -375,6 +375,7 @@ fn results(truth: &Truth, techniques: Vec<TechniqueResult>) -> Result<Results, B
             },
         },
         techniques,
+        left_out: Vec::new(),
         peak_memory_bytes: Some(mega(212)),
         seconds_total: 31.4,
         files: Vec::new(),

@@ -1,11 +1,12 @@
 //! What biases cost and give: acne against detached shadows.
 
 use crate::{
-    compare::{Progress, enter_biased, ideal_kernel, map_plane},
+    compare::{Entered, Progress, enter_biased, ideal_kernel, map_plane},
     gpu::Gpu,
     lighting::Lighting,
     metrics::LIT_THRESHOLD,
     plane::Plane,
+    results::LeftOut,
     stage::Stage,
 };
 use antumbra::{Technique, View, technique, technique::Bias};
@@ -70,6 +71,18 @@ pub struct Row {
     pub rmse: f64,
     /// Mean of 1 − visibility over pixels that are fully lit in the ideal.
     pub over_darkening: f64,
+    /// Why these numbers are worth nothing, if so: triangles that the map had no memory for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub invalid: Option<String>,
+}
+
+/// What [`study`] found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Study {
+    /// Techniques in their order, each with its biases in theirs.
+    pub rows: Vec<Row>,
+    /// Techniques that the device or the scene refuses, each once.
+    pub left_out: Vec<LeftOut>,
 }
 
 /// [`Bias::Auto`] among the other biases of one technique.
@@ -86,11 +99,12 @@ pub struct Standing<'a> {
 }
 
 /// The standing of [`Bias::Auto`] for each technique, in the order of `rows`; techniques without it or
-/// without another bias are left out.
+/// without another bias, and rows that are invalid, are left out.
 #[must_use]
 pub fn standings(rows: &[Row]) -> Vec<Standing<'_>> {
     let automatic = Bias::Auto.to_string();
-    let (autos, others): (Vec<&Row>, Vec<&Row>) = rows.iter().partition(|row| row.bias == automatic);
+    let valid = rows.iter().filter(|row| row.invalid.is_none());
+    let (autos, others): (Vec<&Row>, Vec<&Row>) = valid.partition(|row| row.bias == automatic);
     let mut standings = Vec::new();
     for auto in autos {
         let others: Vec<&Row> = others.iter().copied().filter(|o| o.technique == auto.technique).collect();
@@ -110,8 +124,8 @@ pub fn standings(rows: &[Row]) -> Vec<Standing<'_>> {
 /// compared with the ideal of a single bilinear tap.
 ///
 /// # Errors
-/// Settings that the device cannot do, a light or camera without a view, a lost device.
-pub fn study(gpu: &Gpu, request: &Request<'_>, progress: &dyn Progress) -> Result<Vec<Row>> {
+/// No technique that the device can do, a light or camera without a view, a lost device.
+pub fn study(gpu: &Gpu, request: &Request<'_>, progress: &dyn Progress) -> Result<Study> {
     let Request { geometry, camera, light, resolution, .. } = *request;
     progress.step("upload");
     let mut stage = Stage::new(gpu, geometry, camera, light, resolution)?;
@@ -121,7 +135,10 @@ pub fn study(gpu: &Gpu, request: &Request<'_>, progress: &dyn Progress) -> Resul
         .iter()
         .flat_map(|technique| request.settings.iter().map(move |bias| (technique.clone(), *bias)))
         .collect();
-    let (contestants, view) = enter_biased(gpu, &mut stage, geometry, light, &entries, request.map_size)?;
+    let (entered, view) = enter_biased(gpu, &mut stage, geometry, light, &entries, request.map_size)?;
+    let Entered { contestants, mut left_out } = entered;
+    // Each bias is refused alike.
+    left_out.dedup();
     let tracer = Tracer::new(geometry)?;
     let rays = CameraRays::new(camera, resolution[0], resolution[1])?;
     progress.step("truth: gaps");
@@ -142,17 +159,19 @@ pub fn study(gpu: &Gpu, request: &Request<'_>, progress: &dyn Progress) -> Resul
     gpu.finish(encoder)?;
     progress.step("render");
     let mut rows = Vec::with_capacity(contestants.len());
-    for (contestant, (technique, bias)) in contestants.iter().zip(&entries) {
+    for contestant in &contestants {
+        let (technique, bias) = &entries[contestant.entry];
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         contestant.encode(&mut encoder, &stage, &lighting);
         gpu.finish(encoder)?;
         let test = lighting.read_visibility(gpu)?;
         let ideal = ideals.get(&kernel(technique.as_ref())).context("an ideal for every kernel")?;
         let spec = technique::spec(technique.as_ref());
-        rows.push(row(spec, bias.to_string(), &test, ideal, &gaps).context("no pixel faces the light")?);
-        progress.share(rows.len() as f32 / entries.len() as f32);
+        let row = row(spec, bias.to_string(), &test, ideal, &gaps).context("no pixel faces the light")?;
+        rows.push(Row { invalid: contestant.invalid(), ..row });
+        progress.share(rows.len() as f32 / contestants.len() as f32);
     }
-    Ok(rows)
+    Ok(Study { rows, left_out })
 }
 
 /// Width of a technique's kernel.
@@ -220,6 +239,7 @@ fn row(technique: String, bias: String, test: &Plane, ideal: &Visibility, gaps: 
         detached_texels: detached(&bins),
         rmse: mean(squares, all)?.sqrt(),
         over_darkening: mean(dark, lit).unwrap_or(0.0),
+        invalid: None,
     })
 }
 
@@ -265,6 +285,7 @@ mod tests {
             detached_texels: None,
             rmse,
             over_darkening: 0.0,
+            invalid: None,
         };
         let rows = [
             row("hard", "none", 0.3, 0.1),

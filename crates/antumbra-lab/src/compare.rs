@@ -8,7 +8,6 @@ use crate::{
     plane::error_heat_map,
     report::file_stem,
     results::{Program, Results, SCHEMA, Scores, TechniqueImages, TimeResult},
-    room::Room,
     stage::Stage,
     timing::{self, Entrant},
 };
@@ -26,7 +25,7 @@ mod contestant;
 mod facts;
 mod truths;
 
-pub use contestant::{Contestant, aim, contestants, enter, enter_biased};
+pub use contestant::{Contestant, Entered, aim, contestants, enter, enter_biased};
 pub use facts::{adapter_facts, memory, work};
 use truths::{Truth, Truths};
 
@@ -184,14 +183,15 @@ pub fn map_plane(view: &View) -> MapPlane {
 /// Renders, traces, scores and times.
 ///
 /// # Errors
-/// Settings that the device cannot do, a light or camera without a view, a lost device.
+/// No technique that the device can do, a light or camera without a view, a lost device.
 pub fn compare(gpu: &Gpu, request: &Request, progress: &dyn Progress) -> Result<Comparison> {
     let start = Instant::now();
     progress.step("upload");
     let mut stage = Stage::new(gpu, &request.geometry, &request.camera, &request.light, request.resolution)?;
     let lighting = Lighting::new(gpu, &stage);
     let (geometry, light) = (&request.geometry, &request.light);
-    let (contestants, view) = enter(gpu, &mut stage, geometry, light, &request.techniques, request.map_size)?;
+    let (entered, view) = enter(gpu, &mut stage, geometry, light, &request.techniques, request.map_size)?;
+    let Entered { contestants, left_out } = entered;
     let mut images = BTreeMap::new();
     let truths = truths::trace(gpu, request, &stage, &view, progress, &mut images)?;
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
@@ -209,7 +209,7 @@ pub fn compare(gpu: &Gpu, request: &Request, progress: &dyn Progress) -> Result<
         .iter()
         .zip(rendered)
         .zip(times)
-        .map(|((contestant, rendered), time)| facts::technique(&contestant.shadows, rendered, time))
+        .map(|((contestant, rendered), time)| facts::technique(contestant, rendered, time))
         .collect();
     let results = Results {
         schema: SCHEMA.into(),
@@ -222,6 +222,7 @@ pub fn compare(gpu: &Gpu, request: &Request, progress: &dyn Progress) -> Result<
         adapter: adapter_facts(gpu),
         truth: truths.facts,
         techniques,
+        left_out,
         peak_memory_bytes: facts::peak_memory(),
         seconds_total: start.elapsed().as_secs_f64(),
         files: Vec::new(),
@@ -235,7 +236,6 @@ struct Rendered {
     classes: Vec<ClassShare>,
     regions: BTreeMap<String, metrics::Score>,
     images: TechniqueImages,
-    room: Option<Room>,
 }
 
 /// Draws one technique on the surfaces that the stage already holds, and scores it.
@@ -289,7 +289,7 @@ fn render(
         error_light_space: save("error-light-space.png", error(&truths.light_space)?),
     };
     let classes = numbers.map(|numbers| classes::shares(&numbers, known)).unwrap_or_default();
-    Ok(Rendered { scores, classes, regions, images, room: Room::read(gpu, shadows)? })
+    Ok(Rendered { scores, classes, regions, images })
 }
 
 /// Times all contestants and, for reference, shading without shadows and the standard shadow map

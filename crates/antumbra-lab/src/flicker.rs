@@ -23,7 +23,7 @@
 //! take many rays, and are asked of every [`Request::stride`]-th pixel across and down only.
 
 use crate::{
-    compare::{self, Contestant, Progress, adapter_facts},
+    compare::{self, Contestant, Entered, Progress, adapter_facts},
     gpu::Gpu,
     lighting::Lighting,
     motion::{Frame, Path},
@@ -99,7 +99,7 @@ pub struct Outcome {
 /// Renders and traces every frame.
 ///
 /// # Errors
-/// Numbers out of range, settings that the device cannot do, a camera that sees nothing, a lost device.
+/// Numbers out of range, no technique that the device can do, a camera that sees nothing, a lost device.
 pub fn measure(gpu: &Gpu, request: &Request, progress: &dyn Progress) -> Result<Outcome> {
     let start = Instant::now();
     let mut frames = request.path.frames(&request.camera, &request.light, request.frames)?;
@@ -116,7 +116,9 @@ pub fn measure(gpu: &Gpu, request: &Request, progress: &dyn Progress) -> Result<
     let mut stage = Stage::new(gpu, geometry, &request.camera, light, request.resolution)?;
     let lighting = Lighting::new(gpu, &stage);
     let entries: Vec<_> = request.techniques.iter().map(|t| (t.clone(), Bias::Auto)).collect();
-    let mut contestants = compare::contestants(gpu, &stage, &entries, request.map_size)?;
+    let Entered { mut contestants, left_out } =
+        compare::contestants(gpu, &stage, &entries, request.map_size)?;
+    let mut invalid: Vec<Option<String>> = vec![None; contestants.len()];
     let tracer = Tracer::new(geometry)?;
     let truths = Truths::new(&tracer, request)?;
     let mut series = Series::new(contestants.len(), request.resolution);
@@ -132,7 +134,11 @@ pub fn measure(gpu: &Gpu, request: &Request, progress: &dyn Progress) -> Result<
         let view = compare::view_from(camera, scene, &frame.light, &maps).with_context(at)?;
         compare::aim(gpu, &mut stage, &mut contestants, &view)?;
         texels.push(view.texel_world);
-        draw_maps(gpu, &stage, &contestants)?;
+        for (contestant, invalid) in contestants.iter_mut().zip(&mut invalid) {
+            let spec = || technique::spec(contestant.shadows.technique());
+            contestant.draw_maps(gpu, &stage).with_context(spec)?;
+            *invalid = invalid.take().or_else(|| contestant.invalid());
+        }
         let camera_rests = before.as_ref().is_some_and(|(f, _)| f.camera == frame.camera);
         // The points of the last frame under this frame's light: its surfaces are still there.
         let on_points = match &before {
@@ -172,7 +178,10 @@ pub fn measure(gpu: &Gpu, request: &Request, progress: &dyn Progress) -> Result<
     progress.step("pictures");
     let Some(pictures) = pictures else { bail!("no frame was drawn") };
     let mut images = BTreeMap::new();
-    let (techniques, heat_maps) = series.results(request, &contestants, &mut images)?;
+    let (mut techniques, heat_maps) = series.results(request, &contestants, &mut images)?;
+    for (technique, invalid) in techniques.iter_mut().zip(invalid) {
+        technique.invalid = invalid;
+    }
     pictures.files(&mut images)?;
     let results = Results {
         schema: SCHEMA.into(),
@@ -193,6 +202,7 @@ pub fn measure(gpu: &Gpu, request: &Request, progress: &dyn Progress) -> Result<
         ideal_against_hard: series.ideal_against_hard(),
         texel_changes: texels.windows(2).filter(|pair| pair[0] != pair[1]).count() as u32,
         techniques,
+        left_out,
         heat_maps,
         seconds_tracing: tracing.as_secs_f64(),
         seconds_total: start.elapsed().as_secs_f64(),
@@ -202,18 +212,6 @@ pub fn measure(gpu: &Gpu, request: &Request, progress: &dyn Progress) -> Result<
         bail!("no pixel sees geometry that faces the light in two frames: nothing can flicker");
     }
     Ok(Outcome { results, images })
-}
-
-/// Casts and filters every map, from the views that were set.
-fn draw_maps(gpu: &Gpu, stage: &Stage, contestants: &[Contestant]) -> Result<()> {
-    for contestant in contestants {
-        let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        contestant
-            .shadows
-            .encode(&mut encoder, |view, pass| stage.draw_casters(&contestant.casters, view, pass));
-        gpu.finish(encoder).with_context(|| technique::spec(contestant.shadows.technique()))?;
-    }
-    Ok(())
 }
 
 /// What each map answers for the surfaces that are drawn.

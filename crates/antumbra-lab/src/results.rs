@@ -44,6 +44,9 @@ pub struct Results {
     pub truth: TruthFacts,
     /// One entry per technique and settings, in the order they were asked for.
     pub techniques: Vec<TechniqueResult>,
+    /// Techniques that were asked for and refused. Added later.
+    #[serde(default)]
+    pub left_out: Vec<LeftOut>,
     /// Most memory the process held at once, bytes; `null` where the system does not tell.
     pub peak_memory_bytes: Option<u64>,
     /// Wall-clock time of the whole comparison, seconds.
@@ -216,12 +219,32 @@ pub struct TechniqueResult {
     pub work: Option<Work>,
     /// What the library chose and why: formats, fallbacks.
     pub explain: Vec<String>,
-    /// What the technique had no room for, which makes its scores meaningless. Added later.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub shortage: Option<String>,
+    /// Why its scores are worth nothing, if so: triangles that its map had no memory for. Added later.
+    #[serde(default, alias = "shortage", skip_serializing_if = "Option::is_none")]
+    pub invalid: Option<String>,
     /// Its images.
     pub images: TechniqueImages,
 }
+
+/// A technique that was asked for and could not be measured.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct LeftOut {
+    /// What it was asked for as.
+    pub spec: String,
+    /// What the device or the scene refuses.
+    pub reason: String,
+}
+
+impl std::fmt::Display for LeftOut {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}: {}", self.spec, self.reason)
+    }
+}
+
+/// No technique that was needed is possible: why each was left out.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("left out: {}", self.0.iter().map(LeftOut::to_string).collect::<Vec<_>>().join("; "))]
+pub struct Refused(pub Vec<LeftOut>);
 
 /// What the map keeps and when it is filtered.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -338,6 +361,11 @@ impl Results {
             return Err(ResultsError::Schema { path: path.display().to_string(), found: found.into() });
         }
         serde_json::from_value(value).map_err(json)
+    }
+
+    /// The techniques whose numbers are worth something: all but invalid ones.
+    pub fn valid(&self) -> impl Iterator<Item = &TechniqueResult> {
+        self.techniques.iter().filter(|technique| technique.invalid.is_none())
     }
 
     /// The techniques by family, those of a family in the order they were asked for; families

@@ -6,6 +6,7 @@
 //! neighbouring pixels see different things.
 
 use crate::gpu::Gpu;
+use antumbra::Capacity;
 use antumbra_scene::{AlphaMode, Camera, Geometry, Light};
 use anyhow::{Result, bail};
 use bytemuck::{Pod, Zeroable};
@@ -54,6 +55,7 @@ pub struct Stage {
     light_stride: u64,
     views: Vec<antumbra::View>,
     surfaces: Surfaces,
+    capacity: Capacity,
 }
 
 impl Stage {
@@ -122,6 +124,7 @@ impl Stage {
             light_buffer,
             light_stride,
             views: Vec::new(),
+            capacity: capacity(geometry, light),
         };
         gpu.check()?;
         Ok(stage)
@@ -145,6 +148,18 @@ impl Stage {
         let (frame, matrix) = Frame::new(camera, light, self.surfaces.resolution(), geometry);
         gpu.queue.write_buffer(&self.frame_buffer, 0, bytemuck::bytes_of(&frame));
         self.camera_matrix = matrix;
+    }
+
+    /// Memory that a shadow map of this scene needs for triangles. How many of them share a texel is not known
+    /// before they are drawn: see [`Contestant::draw_maps`](crate::compare::Contestant::draw_maps).
+    #[must_use]
+    pub fn capacity(&self) -> Capacity {
+        self.capacity
+    }
+
+    /// Replaces it. Maps that turn out too small are allocated anew all the same.
+    pub fn set_capacity(&mut self, capacity: Capacity) {
+        self.capacity = capacity;
     }
 
     /// What the camera sees.
@@ -274,6 +289,17 @@ impl Stage {
         let words = bytes.chunks_exact(4).map(|b| u32::from_ne_bytes([b[0], b[1], b[2], b[3]]));
         Ok(words.map(|n| n.wrapping_sub(1)).collect())
     }
+}
+
+/// Of all triangles; those under a spot may be cut in two.
+fn capacity(geometry: &Geometry, light: &Light) -> Capacity {
+    let pieces = match light {
+        Light::Directional { .. } => 1,
+        Light::Spot { .. } => 2,
+    };
+    let triangles = pieces * geometry.triangle_count();
+    let triangles = triangles.clamp(1, Capacity::MAX_TRIANGLES as usize) as u32;
+    Capacity { triangles, ..Capacity::default() }
 }
 
 /// Whether a buffer of `count` things of `size` bytes is possible.

@@ -5,7 +5,7 @@
 
 mod common;
 
-use antumbra::{Technique, View, technique::Bias};
+use antumbra::{Capacity, Technique, View, technique::Bias};
 use antumbra_lab::{compare, plane::Plane};
 use antumbra_scene::{Light, procedural};
 use antumbra_testing::{Gpu, Trials};
@@ -24,6 +24,9 @@ const CASES: [(&str, u32, f64); 5] = [
     ("spot", 256, 0.9990),
 ];
 
+/// Memory for all triangles of these scenes and for what shares their texels.
+const ENOUGH: Capacity = Capacity { triangles: 1 << 19, triangles_per_texel: 64 };
+
 /// How far a receiver is moved to see whether it is at an edge, in texels.
 const NEAR: f64 = 0.02;
 
@@ -31,7 +34,7 @@ fn main() {
     let mut trials = Trials::default();
     for (scene, size, least) in CASES {
         trials.add(format!("{scene}: what rays see"), move |gpu| {
-            let found = Differences::of("exact.per_texel=64", gpu, scene, size);
+            let found = Differences::of("exact", ENOUGH, gpu, scene, size);
             if std::env::var_os("ANTUMBRA_MEASURE").is_some() {
                 eprintln!("{scene}: {found:?}");
             }
@@ -39,12 +42,13 @@ fn main() {
             assert!(found.pixel_match() >= least, "{found:?}");
         });
         trials.add(format!("{scene}: rejected: one triangle per texel"), move |gpu| {
-            let found = Differences::of("hard", gpu, scene, size);
+            let found = Differences::of("hard", ENOUGH, gpu, scene, size);
             assert!(found.unexplained > 50, "{found:?}");
         });
     }
     trials.add("rejected: lists that are cut", |gpu| {
-        let found = Differences::of("exact.triangles=1000", gpu, "spheres", 256);
+        let few = Capacity { triangles: 1000, ..ENOUGH };
+        let found = Differences::of("exact", few, gpu, "spheres", 256);
         assert!(found.unexplained > 50, "{found:?}");
     });
     trials.run();
@@ -62,9 +66,10 @@ struct Differences {
 }
 
 impl Differences {
-    fn of(spec: &str, gpu: &Gpu, scene: &str, size: u32) -> Self {
+    fn of(spec: &str, capacity: Capacity, gpu: &Gpu, scene: &str, size: u32) -> Self {
         let scene = procedural::by_name(scene).unwrap().scene(1);
         let mut shot = Shot::new(gpu, &scene, RESOLUTION);
+        shot.capacity = capacity;
         let technique = compare::techniques(&[spec.into()], 5).unwrap().remove(0);
         let technique: &dyn Technique = technique.as_ref();
         let (maps, view) = shot.maps(&[technique], size, Bias::Auto);

@@ -7,7 +7,7 @@ use antumbra_lab::metrics::score;
 use antumbra_lab::plane::{Plane, Rgba8Image};
 use antumbra_lab::report::{self, ReportError};
 use antumbra_lab::results::{
-    AdapterFacts, BoundsFacts, CameraFacts, Family, LensFacts, Lifetime, LightFacts, MemoryItem,
+    AdapterFacts, BoundsFacts, CameraFacts, Family, LeftOut, LensFacts, Lifetime, LightFacts, MemoryItem,
     MemoryResult, PassTime, Program, Results, ResultsError, SCHEMA, SceneFacts, Scores, Spread,
     TechniqueImages, TechniqueResult, TimeMethod, TimeResult, TruthFacts, TruthImages, Work,
 };
@@ -89,7 +89,7 @@ fn technique(spec: &str, title: &str, family: Family, visibility: f32) -> Techni
             passes: vec!["convert".into()],
         }),
         explain: vec!["chose depth32float".into()],
-        shortage: None,
+        invalid: None,
         images: TechniqueImages {
             picture: image("picture"),
             visibility: image("visibility"),
@@ -147,6 +147,7 @@ fn results() -> Results {
             },
         },
         techniques,
+        left_out: Vec::new(),
         peak_memory_bytes: None,
         seconds_total: 4.0,
         files: vec![],
@@ -204,6 +205,30 @@ fn words_follow_the_numbers() {
     assert!(!page(&other).contains(best));
     let nothing = Results { techniques: vec![], ..results() };
     assert!(page(&nothing).contains("No technique was compared."));
+}
+
+/// The smallest error of an invalid technique wins nothing.
+#[test]
+fn what_is_invalid_or_left_out_is_said_and_has_no_rank() {
+    let folder = Folder::new("invalid");
+    let mut some = results();
+    some.techniques[1].invalid = Some("shadows are <missing>".into());
+    some.left_out = vec![LeftOut { spec: "dpm.keeps=9".into(), reason: "too large".into() }];
+    let out = write(&some, &folder.0.join("report")).unwrap();
+    let page = fs::read_to_string(out.join("index.html")).unwrap();
+    assert!(page.contains("which every filtered map approximates, is <strong>Standard shadow map"));
+    let table = page.split_once("table class=\"scores").unwrap().1.split_once("</table>").unwrap().0;
+    for text in ["invalid: shadows are &lt;missing&gt;", "Left out", "dpm.keeps=9", "too large"] {
+        assert!(table.contains(text), "{text} is missing in: {table}");
+    }
+    let row = table.split("<tr>").find(|row| row.contains("esm.c=80")).unwrap();
+    assert_eq!(row.matches("<td").count(), 1, "{row}");
+    let csv = some.csv();
+    let (_, numbers) = csv.lines().last().unwrap().split_once(",basis").unwrap();
+    assert_eq!(numbers.trim_start_matches(','), "shadows are <missing>");
+    let read = Results::read(&out.join("results.json")).unwrap();
+    assert_eq!((&read.left_out, &read.techniques[1].invalid), (&some.left_out, &some.techniques[1].invalid));
+    assert_eq!(read.valid().count(), 1);
 }
 
 #[test]

@@ -9,7 +9,7 @@ use crate::{
 use antumbra::{ShadowMap, Technique, technique, technique::Bias};
 use antumbra_lab::{
     classes,
-    compare::{self, Contestant, Progress},
+    compare::{self, Contestant, Entered, Progress},
     curve, flicker,
     gpu::Gpu,
     lighting::{Lighting, Lookup},
@@ -18,7 +18,7 @@ use antumbra_lab::{
     motion::Path,
     plane::Plane,
     regions,
-    results::{AdapterFacts, TimeResult},
+    results::{AdapterFacts, LeftOut, Refused, TimeResult},
     stage::Stage,
     timing::{self, Entrant},
 };
@@ -129,7 +129,7 @@ impl<'a> Bench<'a> {
     /// Draws a shot with every technique of `specs`, maps being `map` texels wide.
     ///
     /// # Errors
-    /// Unknown techniques or settings; settings that the device cannot do.
+    /// Unknown techniques or settings; [`Refused`] if the device or the scene refuses any of them.
     pub fn study(&self, shot: Shot, map: u32, specs: &[&str]) -> Result<Study> {
         self.study_biased(shot, map, specs, Bias::Auto)
     }
@@ -139,32 +139,25 @@ impl<'a> Bench<'a> {
     /// # Errors
     /// As [`study`](Self::study); a bias that is not finite.
     pub fn study_biased(&self, shot: Shot, map: u32, specs: &[&str], bias: Bias) -> Result<Study> {
-        let key = ("study", shot, map, specs, bias.to_string());
-        let file = self.cache.memo(&key, || self.draw(&shot, map, specs, bias))?;
-        let key = serde_json::to_string(&key)?;
-        Ok(Study { shot, map, looks: file.looks, view: file.view, key })
+        let study = self.drawn(shot, map, specs, bias)?;
+        if study.left_out.is_empty() { Ok(study) } else { Err(Refused(study.left_out).into()) }
     }
 
-    /// The techniques of `specs` that the device refuses for this shot, with its reasons. For when
-    /// [`study`](Self::study) fails: it tries each alone.
+    /// The same with each technique's own bias, without those of `specs` that cannot be drawn: what
+    /// [`Study::left_out`] holds.
     ///
     /// # Errors
-    /// A scene that cannot be uploaded.
-    pub fn refused(&self, shot: Shot, map: u32, specs: &[&str]) -> Result<BTreeMap<String, String>> {
-        self.cache.memo(&("refused", shot, map, specs), || {
-            let scene = self.scene(shot.scene)?;
-            let mut refused = BTreeMap::new();
-            for spec in specs {
-                self.progress.step(&format!("try {spec} on {}", shot.scene));
-                let mut stage = self.stage(&shot, &scene)?;
-                let (geometry, light) = (&scene.geometry, &scene.light);
-                let tried = compare::enter(&self.gpu, &mut stage, geometry, light, &parse(&[*spec])?, map);
-                if let Err(reason) = tried {
-                    refused.insert((*spec).to_string(), format!("{reason:#}"));
-                }
-            }
-            Ok(refused)
-        })
+    /// Unknown techniques or settings; [`Refused`] where none is left.
+    pub fn possible(&self, shot: Shot, map: u32, specs: &[&str]) -> Result<Study> {
+        self.drawn(shot, map, specs, Bias::Auto)
+    }
+
+    fn drawn(&self, shot: Shot, map: u32, specs: &[&str], bias: Bias) -> Result<Study> {
+        let key = ("study", shot, map, specs, bias.to_string());
+        let StudyFile { looks, left_out, view } =
+            self.cache.memo(&key, || self.draw(&shot, map, specs, bias))?;
+        let key = serde_json::to_string(&key)?;
+        Ok(Study { shot, map, looks, left_out, view, key })
     }
 
     fn draw(&self, shot: &Shot, map: u32, specs: &[&str], bias: Bias) -> Result<StudyFile> {
@@ -175,12 +168,14 @@ impl<'a> Bench<'a> {
         let lighting = Lighting::new(gpu, &stage);
         let (geometry, light) = (&scene.geometry, &scene.light);
         let entries: Vec<_> = techniques.into_iter().map(|t| (t, bias)).collect();
-        let (contestants, view) = compare::enter_biased(gpu, &mut stage, geometry, light, &entries, map)?;
+        let (entered, view) = compare::enter_biased(gpu, &mut stage, geometry, light, &entries, map)?;
+        let (contestants, left_out) = sound(entered);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         stage.encode_surfaces(&mut encoder, None);
         gpu.finish(encoder)?;
         let mut looks = Vec::new();
-        for (i, (contestant, spec)) in contestants.iter().zip(specs).enumerate() {
+        for (i, contestant) in contestants.iter().enumerate() {
+            let spec = specs[contestant.entry];
             self.progress.step(&format!("draw {spec} on {}", shot.scene));
             self.progress.share(i as f32 / specs.len() as f32);
             looks.push(look(gpu, &stage, &lighting, contestant, spec)?);
@@ -191,7 +186,7 @@ impl<'a> Bench<'a> {
             down: plane.down_per_texel.to_array(),
             depth: view.depth_world,
         };
-        Ok(StudyFile { looks, view })
+        Ok(StudyFile { looks, left_out, view })
     }
 
     /// Traces what a study's pictures ought to be. The scene's tree of triangles is built once for all
@@ -332,8 +327,12 @@ impl<'a> Bench<'a> {
             let mut ready: BTreeMap<u32, std::vec::IntoIter<Contestant>> = BTreeMap::new();
             let mut views = Vec::new();
             for (map, specs) in groups {
-                let (contestants, _) =
+                let (entered, _) =
                     compare::enter(gpu, &mut stage, &scene.geometry, &scene.light, &parse(&specs)?, map)?;
+                let (contestants, left_out) = sound(entered);
+                if !left_out.is_empty() {
+                    return Err(Refused(left_out).into());
+                }
                 for view in contestants.iter().flat_map(|c| c.shadows.caster_views()) {
                     if !views.contains(view) {
                         views.push(*view);
@@ -432,9 +431,9 @@ impl<'a> Bench<'a> {
             self.progress.step(&format!("maps of {spec} on {}", shot.scene));
             let mut stage = self.stage(&shot, &scene)?;
             let techniques = parse(&[spec])?;
-            let (contestants, view) =
+            let (entered, view) =
                 compare::enter(gpu, &mut stage, &scene.geometry, &scene.light, &techniques, map)?;
-            let contestant = contestants.first().context("no technique")?;
+            let contestant = entered.contestants.first().context("no technique")?;
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
             let shadows = &contestant.shadows;
             shadows.encode(&mut encoder, |view, pass| stage.draw_casters(&contestant.casters, view, pass));
@@ -448,6 +447,16 @@ impl<'a> Bench<'a> {
             Ok(sheet.image().into())
         })
     }
+}
+
+/// Techniques that can be trusted, and all others with the reasons.
+fn sound(entered: Entered) -> (Vec<Contestant>, Vec<LeftOut>) {
+    let Entered { contestants, mut left_out } = entered;
+    let (invalid, sound): (Vec<_>, Vec<_>) = contestants.into_iter().partition(|c| c.invalid().is_some());
+    left_out.extend(invalid.iter().filter_map(|c| {
+        Some(LeftOut { spec: technique::spec(c.shadows.technique()), reason: c.invalid()? })
+    }));
+    (sound, left_out)
 }
 
 /// Draws one technique on the surfaces that the stage already holds.

@@ -3,10 +3,17 @@
 use crate::{
     bench::Bench,
     html,
+    page::Page,
     results::{Record, Reproduction, SCHEMA},
     target::{self, Target},
+    verdict::Verdict,
 };
-use antumbra_lab::{compare::Progress, files, results::Program};
+use antumbra::Unsupported;
+use antumbra_lab::{
+    compare::Progress,
+    files,
+    results::{Program, Refused},
+};
 use anyhow::{Context, Result, bail};
 use std::{
     cell::Cell,
@@ -63,7 +70,7 @@ pub fn run(options: &Options, done: &dyn Done) -> Result<Reproduction> {
         let pace = if past > 30.0 { took / past } else { 1.0 };
         done.total(target.id, past / total, (total - past) * pace);
         let begun = Instant::now();
-        let page = (target.run)(&bench).with_context(|| format!("target {}", target.id))?;
+        let page = measured((target.run)(&bench)).with_context(|| format!("target {}", target.id))?;
         let record = Record::new(target, &page, &bench.build, options.quick, begun.elapsed().as_secs_f64());
         let text = html::page(target, &page, &record, &results);
         files::write_atomically(&output.join(&record.file), text.as_bytes())?;
@@ -75,6 +82,20 @@ pub fn run(options: &Options, done: &dyn Done) -> Result<Reproduction> {
         expected.set(past + seconds(target));
     }
     Ok(results)
+}
+
+/// A target's page; one that says why there is none where the device or a scene refuses what it needs.
+fn measured(page: Result<Page>) -> Result<Page> {
+    match page {
+        Err(error) if error.is::<Refused>() || error.is::<Unsupported>() => {
+            let reason = format!("{error:#}");
+            let mut page = Page::default();
+            page.text(format!("Nothing was measured. {reason}."));
+            page.verdict(Verdict::open("What the source says of this", format!("not measured: {reason}")));
+            Ok(page)
+        }
+        page => page,
+    }
 }
 
 fn write_index(output: &Path, results: &Reproduction) -> Result<()> {

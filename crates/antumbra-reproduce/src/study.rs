@@ -6,7 +6,7 @@ use antumbra_lab::{
     classes::ClassShare,
     flicker::{self, TechniqueFlicker},
     plane::Plane,
-    results::{MemoryResult, Work},
+    results::{LeftOut, MemoryResult, Refused, Work},
 };
 use anyhow::{Context, Result};
 use serde::{Deserialize, Serialize};
@@ -61,6 +61,8 @@ pub struct Study {
     pub map: u32,
     /// In the order they were asked for.
     pub looks: Vec<Look>,
+    /// Techniques that were asked for and are not among the looks: refused, or invalid.
+    pub left_out: Vec<LeftOut>,
     pub(crate) view: ViewFacts,
     pub(crate) key: String,
 }
@@ -113,11 +115,18 @@ impl Moving {
     /// What a technique flickers, by the spec it was asked for.
     ///
     /// # Errors
-    /// A spec that was not asked for.
+    /// A spec that was not asked for; [`Refused`] where it was left out or is invalid.
     pub fn technique(&self, spec: &str) -> Result<&TechniqueFlicker> {
         let full = technique::spec(technique::parse(spec)?.as_ref());
+        if let Some(left_out) = self.results.left_out.iter().find(|left_out| left_out.spec == full) {
+            return Err(Refused(vec![left_out.clone()]).into());
+        }
         let found = self.results.techniques.iter().find(|technique| technique.spec == full);
-        found.with_context(|| format!("{spec} was not moved"))
+        let found = found.with_context(|| format!("{spec} was not moved"))?;
+        match &found.invalid {
+            None => Ok(found),
+            Some(why) => Err(Refused(vec![LeftOut { spec: full, reason: why.clone() }]).into()),
+        }
     }
 
     /// One of the pictures that [`flicker::measure`] drew.
@@ -148,6 +157,7 @@ pub(crate) struct TracedFile {
 #[derive(Serialize, Deserialize)]
 pub(crate) struct StudyFile {
     pub(crate) looks: Vec<Look>,
+    pub(crate) left_out: Vec<LeftOut>,
     pub(crate) view: ViewFacts,
 }
 

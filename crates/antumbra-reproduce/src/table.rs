@@ -6,8 +6,13 @@ use crate::{
     study::{Look, Study, Truth},
     target::{Source, Target},
 };
-use antumbra::{Dpm, Exact, technique};
-use antumbra_lab::{compare, metrics::Score, motion::Path, results::TimeResult};
+use antumbra::technique;
+use antumbra_lab::{
+    compare,
+    metrics::Score,
+    motion::Path,
+    results::{Refused, TimeResult},
+};
 use antumbra_scene::procedural;
 use anyhow::{Context, Result};
 
@@ -108,24 +113,17 @@ fn run(bench: &Bench<'_>) -> Result<Page> {
     let chosen = |p: &&procedural::Procedural| !bench.quick || p.triangles < QUICK_TRIANGLES;
     for scene in procedural::all().iter().filter(chosen) {
         let (shot, map) = (bench.shot(scene.name, [512, 384]), bench.map(1024));
-        let specs: Vec<String> = specs.iter().map(|spec| with_room(spec, scene.triangles)).collect();
-        let mut specs: Vec<&str> = specs.iter().map(String::as_str).collect();
-        let mut study = bench.study(shot, map, &specs);
-        if study.is_err() {
-            let refused = bench.refused(shot, map, &specs)?;
-            specs.retain(|spec| !refused.contains_key(*spec));
-            study = bench.study(shot, map, &specs);
-            for (spec, reason) in refused {
-                page.text(format!("{spec} was left out on {}: {reason}", scene.name));
-            }
+        let specs: Vec<&str> = specs.iter().map(String::as_str).collect();
+        let study = bench.possible(shot, map, &specs)?;
+        for left_out in &study.left_out {
+            page.text(format!("Left out on {}: {left_out}.", scene.name));
         }
-        let study = study?;
-        let values = scene_values(bench, &study, &specs)?;
+        let values = scene_values(bench, &study)?;
         let entry = |(look, values): (&Look, Vec<Option<f64>>)| Entry {
             scene: scene.name.into(),
-            technique: plain(&look.spec).into(),
+            technique: look.spec.clone(),
             title: look.title.clone(),
-            family: family(plain(&look.spec)),
+            family: family(&look.spec),
             values,
             leads: Vec::new(),
         };
@@ -152,38 +150,14 @@ fn run(bench: &Bench<'_>) -> Result<Page> {
     Ok(page)
 }
 
-/// The techniques that keep triangles by number.
-const NUMBERING: [&str; 2] = ["dpm", "exact"];
-
-/// A spec that has room for all triangles of a scene with so many.
-pub(crate) fn with_room(spec: &str, triangles: usize) -> String {
-    let (few, many) = (Dpm::default(), Exact::default());
-    // Numbers of procedural scenes are rounded.
-    let room = (triangles + triangles / 8) as u32;
-    match spec {
-        "dpm" if triangles > few.triangles as usize => technique::spec(&Dpm { triangles: room, ..few }),
-        // The smallest maps here hold 40 triangles of `city` per texel.
-        "exact" if triangles > many.triangles as usize => {
-            technique::spec(&Exact { per_texel: 8 * many.per_texel, triangles: room })
-        }
-        _ => spec.into(),
-    }
-}
-
-/// A spec without room for one scene, as in the rows of others.
-fn plain(spec: &str) -> &str {
-    let name = spec.split('.').next().unwrap_or(spec);
-    let roomy = NUMBERING.contains(&name) && spec.contains("triangles=");
-    if roomy { name } else { spec }
-}
-
-fn scene_values(bench: &Bench<'_>, study: &Study, specs: &[&str]) -> Result<Vec<Vec<Option<f64>>>> {
+fn scene_values(bench: &Bench<'_>, study: &Study) -> Result<Vec<Vec<Option<f64>>>> {
+    let specs: Vec<&str> = study.looks.iter().map(|look| look.spec.as_str()).collect();
     let truths = bench.truths(study, &[Truth::Hard, Truth::LightSpace(KERNEL), Truth::ScreenSpace(4)])?;
     let entrants: Vec<(u32, &str)> = specs.iter().map(|spec| (study.map, *spec)).collect();
     let times = bench.race(study.shot, &entrants, bench.rounds(3))?;
     let hard = specs.iter().position(|s| *s == "hard").context("the standard shadow map is missing")?;
     let small = bench.shot(study.shot.scene, SMALL);
-    let moving = bench.moving(small, Path::Both, STEPS, bench.map(SMALL_MAP), specs)?;
+    let moving = bench.moving(small, Path::Both, STEPS, bench.map(SMALL_MAP), &specs)?;
     let median = |time: &TimeResult| time.frame.median_ms;
     let mut all = Vec::new();
     for ((spec, look), time) in specs.iter().zip(&study.looks).zip(&times) {
@@ -195,13 +169,21 @@ fn scene_values(bench: &Bench<'_>, study: &Study, specs: &[&str]) -> Result<Vec<
             hard: &scores[0],
             light_space: &scores[1],
             screen_space: &scores[2],
-            flicker: moving.technique(spec)?.ratio_to_hard,
+            flicker: possible(moving.technique(spec))?.and_then(|moved| moved.ratio_to_hard),
             time: median(time) / median(&times[hard]),
             bytes: look.memory.kept_bytes,
         };
         all.push(QUANTITIES.iter().map(|q| (q.6)(&measured).filter(|v| v.is_finite())).collect());
     }
     Ok(all)
+}
+
+/// Nothing where a technique was refused.
+fn possible<T>(measured: Result<T>) -> Result<Option<T>> {
+    match measured {
+        Err(error) if error.is::<Refused>() => Ok(None),
+        measured => measured.map(Some),
+    }
 }
 
 /// A row for each technique with the means over its scenes.
@@ -261,17 +243,6 @@ mod tests {
             values: QUANTITIES.iter().map(value).collect(),
             leads: Vec::new(),
         }
-    }
-
-    #[test]
-    fn large_scenes_get_room() {
-        assert_eq!(with_room("exact", 1000), "exact");
-        assert_eq!(with_room("spsm", 2_300_000), "spsm");
-        assert_eq!(with_room("dpm", 2_300_000), "dpm.triangles=2587500");
-        let roomy = with_room("exact", 2_300_000);
-        assert!(roomy.contains("triangles=2587500") && technique::parse(&roomy).is_ok(), "{roomy}");
-        assert_eq!([plain(&roomy), plain("csm.terms=4")], ["exact", "csm.terms=4"]);
-        assert_eq!(plain("dpm.keeps=6"), "dpm.keeps=6");
     }
 
     #[test]

@@ -65,7 +65,7 @@
 //! | `rgsm` | [`Rgsm`] | 16 bytes | 9, or n² | edges finer than texels where triangles are larger than those; elsewhere no better than `hard` |
 //! | `spsm` | [`Spsm`] | 16 bytes, 32 with 2 layers | 1 to 19, silhouettes up to 3 times that | edges finer than texels, hard; draws casters twice from storage buffers ([`CasterMesh`]), slow without a GPU |
 //! | `dpm` | [`Dpm`] | 4 bytes and 4 per triangle kept, 48 per triangle of the scene | 4 per triangle kept, 10 more where some are missing | what rays see where texels have room; hard; frays where more small triangles share a texel than are kept |
-//! | `exact` | [`Exact`] | 16 bytes and 4 per triangle in it, 48 per triangle of the scene | 2 and 4 per triangle in a list | what rays see, whatever the size of the map; memory for the triangles must be known beforehand |
+//! | `exact` | [`Exact`] | 16 bytes and 4 per triangle in it, 48 per triangle of the scene | 2 and 4 per triangle in a list | what rays see, whatever the size of the map; memory follows from the scene ([`Capacity`]) |
 //!
 //! A technique is a value whose public fields are its settings; [`technique::parse`] reads them from
 //! text (`esm.c=60,kernel=7`) and [`technique::all`] lists them. All of them run through the same
@@ -131,8 +131,8 @@ pub use filter::{Filter, Sampling, Values};
 pub use kernel::{Kernel, Weights};
 pub use light::{Bounds, Fit, Light, Size, View};
 pub use map::{
-    CasterMesh, DEPTH_FORMAT, Lifetime, Memory, MemoryItem, NoProbe, Options, Pipelines, Probe, ShadowMap,
-    TooManyViews,
+    Capacity, CasterMesh, DEPTH_FORMAT, Lifetime, Memory, MemoryItem, NoProbe, Options, Pipelines, Probe,
+    ShadowMap, TooManyViews,
 };
 pub use parameter::{Choice, Field, Parameter};
 pub use precision::Precision;

@@ -12,6 +12,7 @@ use glam::Vec2;
 use std::sync::atomic::{AtomicU32, Ordering};
 use wgpu::{RenderPass, TextureFormat};
 
+mod capacity;
 mod caster;
 mod check;
 mod draw;
@@ -25,14 +26,15 @@ mod receiver;
 mod textures;
 mod uniforms;
 
+pub use capacity::Capacity;
 pub use caster::CasterMesh;
 use caster::TriangleCaster;
 use draw::Draw;
-use lists::{Lists, Room};
+use lists::{ListSize, Lists};
 pub use memory::{Lifetime, Memory, MemoryItem};
 use numbered::Numbered;
 pub use pipelines::Pipelines;
-use ranked::{RankedRoom, RankedTriangles};
+use ranked::{RankedSize, RankedTriangles};
 use textures::Textures;
 use uniforms::Uniforms;
 
@@ -50,11 +52,13 @@ pub struct Options {
     pub bias: Bias,
     /// Share it between maps, so that no shader is compiled twice.
     pub pipelines: Option<Pipelines>,
+    /// Memory for triangles, where the technique keeps them by id.
+    pub capacity: Capacity,
 }
 
 impl From<Size> for Options {
     fn from(size: Size) -> Self {
-        Self { size, views: 1, bias: Bias::Auto, pipelines: None }
+        Self { size, views: 1, bias: Bias::Auto, pipelines: None, capacity: Capacity::default() }
     }
 }
 
@@ -73,6 +77,11 @@ impl Options {
     #[must_use]
     pub fn pipelines(self, pipelines: &Pipelines) -> Self {
         Self { pipelines: Some(pipelines.clone()), ..self }
+    }
+    /// The same with memory for so many triangles.
+    #[must_use]
+    pub fn capacity(self, capacity: Capacity) -> Self {
+        Self { capacity, ..self }
     }
 }
 
@@ -114,6 +123,7 @@ pub struct ShadowMap {
     capabilities: Capabilities,
     size: Size,
     room: u32,
+    capacity: Capacity,
     textures: Textures,
     uniforms: Uniforms,
     draws: Vec<Vec<Draw>>,
@@ -187,18 +197,19 @@ impl ShadowMap {
             _ => None,
         };
         let lists = match technique.caster() {
-            Caster::Lists { per_texel, triangles } => {
-                let room = Room { size: options.size, views: options.views, per_texel, triangles };
-                check::lists(device, technique, room)?;
-                Some(Lists::new(device, technique, room, &pipelines))
+            Caster::Lists => {
+                let size = ListSize { size: options.size, views: options.views, capacity: options.capacity };
+                check::lists(device, technique, size)?;
+                Some(Lists::new(device, technique, size, &pipelines))
             }
             _ => None,
         };
         let ranked = match technique.caster() {
-            Caster::Ranked { keeps, triangles } => {
-                let room = RankedRoom { size: options.size, views: options.views, keeps, triangles };
-                check::ranked(device, technique, room)?;
-                Some(RankedTriangles::new(device, technique, room, &pipelines))
+            Caster::Ranked { keeps } => {
+                let Options { size, views, capacity, .. } = *options;
+                let size = RankedSize { size, views, keeps, capacity };
+                check::ranked(device, technique, size)?;
+                Some(RankedTriangles::new(device, technique, size, &pipelines))
             }
             _ => None,
         };
@@ -231,6 +242,7 @@ impl ShadowMap {
             capabilities,
             size: options.size,
             room: options.views,
+            capacity: options.capacity,
             textures,
             uniforms,
             draws,
@@ -391,8 +403,8 @@ impl ShadowMap {
     }
 
     /// Two `u32` per view, usage `COPY_SRC`, for techniques whose caster is [`Caster::Lists`]: entries
-    /// that the casters of the last [`encode`](Self::encode) needed, of `width · height · per_texel`
-    /// that there is room for; length of the longest list.
+    /// that the casters of the last [`encode`](Self::encode) needed, of the `width · height` times
+    /// [`Capacity::triangles_per_texel`] that there is memory for; length of the longest list.
     #[must_use]
     pub fn list_totals(&self) -> Option<&wgpu::Buffer> {
         self.lists.as_ref().map(Lists::totals)
@@ -401,7 +413,7 @@ impl ShadowMap {
     /// Numbers that the last [`encode`](Self::encode) gave to triangles in the view with most, for
     /// techniques whose caster is [`Caster::Lists`] or [`Caster::Ranked`]: one for each triangle that was
     /// drawn, two under a spot, which may cut it in two, and those of triangles before the first that was
-    /// drawn. What is beyond their `triangles` casts no shadow. Else 0.
+    /// drawn. What is beyond [`Capacity::triangles`] casts no shadow. Else 0.
     #[must_use]
     pub fn triangles_drawn(&self) -> u32 {
         self.drawn.load(Ordering::Relaxed)
@@ -427,6 +439,12 @@ impl ShadowMap {
         &self.caster_views
     }
 
+    /// The views of the last [`prepare`](Self::prepare).
+    #[must_use]
+    pub fn views(&self) -> &[View] {
+        &self.views
+    }
+
     /// Layout of [`bind_group`](Self::bind_group), visible to fragment and compute shaders.
     #[must_use]
     pub fn layout(&self) -> &wgpu::BindGroupLayout {
@@ -442,7 +460,14 @@ impl ShadowMap {
     /// `shadow_visibility(position, normal, ddx, ddy) -> f32` with all it needs, bound in `group`.
     #[must_use]
     pub fn wgsl(&self, group: u32) -> ShaderText {
-        shader::receiver(self.technique.as_ref(), &self.capabilities, self.room, group)
+        let size = shader::MapSize { views: self.room, capacity: self.capacity };
+        shader::receiver(self.technique.as_ref(), &self.capabilities, size, group)
+    }
+
+    /// Memory for triangles that it was made with.
+    #[must_use]
+    pub fn capacity(&self) -> Capacity {
+        self.capacity
     }
 
     /// What `shadow_visibility` is made from.

@@ -7,6 +7,7 @@
 
 use crate::{
     capabilities::Capabilities,
+    map::Capacity,
     technique::{Binding, Caster, Constant, Coverage, DepthSpace, Family, List, Map, Ranked, Technique},
 };
 use std::fmt::Write;
@@ -193,15 +194,27 @@ fn wgsl_type(binding: Binding, maps: &[Map]) -> &'static str {
     }
 }
 
-/// The functions through which a technique reads a buffer, which WGSL cannot pass on: signature, result,
-/// and what they return where the buffer is called `BUFFER`.
-fn accessors(ranked: Ranked) -> &'static [[&'static str; 3]] {
+/// What generated text needs to know of a map's size.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct MapSize {
+    pub(crate) views: u32,
+    pub(crate) capacity: Capacity,
+}
+
+/// The functions through which a technique reads a buffer, which WGSL cannot pass on.
+fn accessors(ranked: Ranked, buffer: &str, size: MapSize) -> String {
+    let Capacity { triangles, .. } = size.capacity;
     match ranked {
-        Ranked::Keys => &[
-            ["fn shadow_key(i: u32)", "u32", "BUFFER[i]"],
-            ["fn shadow_near_over_far(view: u32)", "f32", "shadow.views[view].near_over_far"],
-        ],
-        Ranked::Corners => &[["fn shadow_corner(i: u32)", "vec3f", "BUFFER[i].xyz"]],
+        Ranked::Keys => format!(
+            "fn shadow_key(i: u32) -> u32 {{ return {buffer}[i]; }}\n\
+             fn shadow_key_bits() -> u32 {{ return {}u; }}\n\
+             fn shadow_near_over_far(view: u32) -> f32 {{ return shadow.views[view].near_over_far; }}\n",
+            size.capacity.id_bits()
+        ),
+        Ranked::Corners => format!(
+            "fn shadow_corner(view: u32, triangle: u32, corner: u32) -> vec3f {{ \
+             return {buffer}[3u * (view * {triangles}u + triangle) + corner].xyz; }}\n"
+        ),
     }
 }
 
@@ -209,7 +222,7 @@ fn accessors(ranked: Ranked) -> &'static [[&'static str; 3]] {
 pub(crate) fn receiver(
     technique: &dyn Technique,
     device: &Capabilities,
-    views: u32,
+    size: MapSize,
     group: u32,
 ) -> ShaderText {
     let mut shader = ShaderText::library(technique, device);
@@ -219,7 +232,8 @@ pub(crate) fn receiver(
         technique.widths().iter().map(|(width, _)| format!(", width_{width}: f32")).collect();
     let mut glue = format!(
         "struct ShadowView {{ clip_from_world: mat4x4f, depth_plane: vec4f, to_light: vec4f, texel_world: f32, near_over_far: f32, reach_x: f32, reach_y: f32{widths} }}\n\
-         struct ShadowUniforms {{\n    views: array<ShadowView, {views}>,\n    view_count: u32, width: f32, height: f32,\n    constant_texels: f32, slope_texels: f32, normal_offset_texels: f32, grazing_offset_texels: f32,\n    receiver_plane: f32, constant_depth: f32, float_steps: f32,\n"
+         struct ShadowUniforms {{\n    views: array<ShadowView, {}>,\n    view_count: u32, width: f32, height: f32,\n    constant_texels: f32, slope_texels: f32, normal_offset_texels: f32, grazing_offset_texels: f32,\n    receiver_plane: f32, constant_depth: f32, float_steps: f32,\n",
+        size.views
     );
     for (uniform, _) in technique.uniforms() {
         let _ = writeln!(glue, "    setting_{uniform}: f32,");
@@ -231,10 +245,7 @@ pub(crate) fn receiver(
         if let Binding::Ranked(ranked) = binding {
             let (ty, name) = (wgsl_type(binding, &maps), format!("shadow_binding_{i}"));
             let _ = writeln!(glue, "@group({group}) @binding({}) var<storage, read> {name}: {ty};", i + 1);
-            for [signature, result, value] in accessors(ranked) {
-                let value = value.replace("BUFFER", &name);
-                let _ = writeln!(glue, "{signature} -> {result} {{ return {value}; }}");
-            }
+            glue += &accessors(ranked, &name, size);
             continue;
         }
         let _ = writeln!(
@@ -330,7 +341,7 @@ pub(crate) fn triangles(
     let text = shader.text();
     let indexed = matches!(pass, TrianglePass::Indexed(_));
     let entry = match technique.caster() {
-        Caster::Lists { .. } => [include_str!("shader/lists.wgsl.in"), ""],
+        Caster::Lists => [include_str!("shader/lists.wgsl.in"), ""],
         Caster::Ranked { .. } => [include_str!("shader/ranked.wgsl.in"), ""],
         _ if indexed => [TRIANGLES, include_str!("shader/triangles/indexed.wgsl.in")],
         Caster::Depth | Caster::Triangles(_) => [TRIANGLES, include_str!("shader/triangles/pulled.wgsl.in")],

@@ -72,13 +72,8 @@ pub enum Caster {
     /// All triangles that touch each texel, drawn from [`CasterMesh`](crate::CasterMesh)es by the
     /// library's pipelines: [`Binding::List`]. They are drawn twice, to count and to fill the lists, so
     /// that the closure of [`ShadowMap::encode`](crate::ShadowMap::encode) must draw the same in the
-    /// same order both times. What there is no room for is left out.
-    Lists {
-        /// Triangles per texel that there is room for, on average over the map.
-        per_texel: u32,
-        /// Numbers of triangles that there is room for in a view, at least 1; a spot's triangles take two.
-        triangles: u32,
-    },
+    /// same order both times. What exceeds the map's [`Capacity`](crate::Capacity) is left out.
+    Lists,
     /// Some of the triangles that touch each texel, drawn once from
     /// [`CasterMesh`](crate::CasterMesh)es by the library's pipelines: [`Binding::Ranked`]. They are those
     /// that show their far side to the light, and then those that show the near one, from the light on.
@@ -87,30 +82,31 @@ pub enum Caster {
     Ranked {
         /// Triangles per texel, at least 1.
         keeps: u32,
-        /// Numbers of triangles that there is room for in a view, at least 1; a spot's triangles take two.
-        triangles: u32,
     },
+}
+
+impl Caster {
+    /// Whether it keeps triangles by id, for which a map needs [`Capacity`](crate::Capacity).
+    #[must_use]
+    pub fn keeps_ids(self) -> bool {
+        match self {
+            Self::Depth | Self::Triangles(_) => false,
+            Self::Lists | Self::Ranked { .. } => true,
+        }
+    }
 }
 
 /// A buffer that [`Caster::Ranked`] leaves. The technique's WGSL reads it through a function.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Ranked {
     /// `shadow_key(i: u32) -> u32`: of each texel the keys of its triangles, as in `key.wgsl`, the
-    /// greatest first, 0 where there are fewer; with `shadow_near_over_far(view: u32) -> f32`, 1 for the
-    /// sun, which makes depth linear. Those of texel (x, y) begin at `keeps` · ((view ·
-    /// height + y) · width + x).
+    /// greatest first, 0 where there are fewer; with `shadow_key_bits() -> u32`, the bits of a triangle's id
+    /// in them, and `shadow_near_over_far(view: u32) -> f32`, 1 for the sun, which makes depth linear.
+    /// Those of texel (x, y) begin at `keeps` · ((view · height + y) · width + x).
     Keys,
-    /// `shadow_corner(i: u32) -> vec3f`: corner c of triangle n at 3 · (view · `triangles` + n) + c: x
-    /// and y in texels of the map, y down, z the depth as rasterised.
+    /// `shadow_corner(view: u32, triangle: u32, corner: u32) -> vec3f`: x and y in texels of the map, y down,
+    /// z the depth as rasterised.
     Corners,
-}
-
-impl Ranked {
-    /// Bits of the numbers of that many triangles in keys, 1 to 30.
-    #[must_use]
-    pub fn number_bits(triangles: u32) -> u32 {
-        triangles.clamp(2, 1 << 30).next_power_of_two().ilog2()
-    }
 }
 
 /// A texture that [`Caster::Lists`] leaves.

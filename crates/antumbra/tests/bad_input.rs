@@ -6,8 +6,8 @@
 mod common;
 
 use antumbra::{
-    Capabilities, Csm, Dpm, Esm, Evsm, Exact, Filter, Hard, LightError, NoProbe, Options, Pcf, Pipelines,
-    Sampling, SettingError, ShadowMap, Size, Technique, Unsupported, Vsm, technique,
+    Capabilities, Capacity, Csm, Dpm, Esm, Evsm, Exact, Filter, Hard, LightError, NoProbe, Options, Pcf,
+    Pipelines, Sampling, SettingError, ShadowMap, Size, Technique, Unsupported, Vsm, technique,
     technique::{BiasTerms, evsm},
 };
 use antumbra_testing::{Gpu, Trials};
@@ -200,13 +200,15 @@ fn depth_formats_are_taken(gpu: &Gpu) {
     }
 }
 
-/// Lists of triangles: no room at all, more than the device has, depth instead of triangles.
-fn lists(gpu: &Gpu) {
-    let exact = |per_texel, triangles| Exact { per_texel, triangles };
-    says(&refusal(gpu, &exact(0, 1), SIZE), &["exact.per_texel", "0", "1 to 64"]);
+/// Techniques that keep triangles: no capacity at all, more than the device has, depth instead of triangles.
+fn triangles(gpu: &Gpu) {
+    let of = |size, triangles, triangles_per_texel| {
+        Options::from(Size::square(size)).capacity(Capacity { triangles, triangles_per_texel })
+    };
     says(&refusal(gpu, &Dpm { keeps: 33, ..Dpm::default() }, SIZE), &["dpm.keeps", "33", "1 to 32"]);
-    says(&refusal(gpu, &exact(1, 0), SIZE), &["exact.triangles", "0", "1 to 16777216"]);
-    for technique in [&Exact::default() as &dyn Technique, &Dpm::default()] {
+    for technique in [&Exact as &dyn Technique, &Dpm::default()] {
+        says(&refusal(gpu, technique, of(8, 0, 1)), &["capacity.triangles", "= 0 ", "1 to 1073741824"]);
+        says(&refusal(gpu, technique, of(8, 1, 0)), &["capacity.triangles_per_texel", "= 0 "]);
         let error = ShadowMap::from_depth(&gpu.device, technique, &texture(gpu, |_| ()), SIZE).unwrap_err();
         assert!(matches!(error, Unsupported::Triangles { .. }), "{error}");
     }
@@ -217,23 +219,23 @@ fn lists(gpu: &Gpu) {
     });
     let least = antumbra_testing::gpu_with(wgpu::Features::empty(), wgpu::Limits::default()).unwrap();
     least.checked(|gpu| {
-        let message = refusal(gpu, &exact(64, 1), Options::from(Size::square(4096)).views(2));
+        let message = refusal(gpu, &Exact, of(4096, 1, 64).views(2));
         says(&message, &["2 views", "512 layers", "1 to 256"]);
     });
     let limits = wgpu::Limits { max_storage_buffer_binding_size: 1 << 10, ..Default::default() };
     let limits = wgpu::Limits { max_texture_dimension_2d: 2048, ..limits };
     let lesser = antumbra_testing::gpu_with(wgpu::Features::empty(), limits).unwrap();
     lesser.checked(|gpu| {
-        let message = refusal(gpu, &exact(1, 1), Size::square(17));
+        let message = refusal(gpu, &Exact, of(17, 1, 1));
         says(&message, &["exact", "1156 bytes", "1024", "at most 256 texels"]);
-        let dpm = |keeps, triangles| Dpm { keeps, triangles, ..Dpm::default() };
-        let message = refusal(gpu, &dpm(4, 1), Size::square(17));
+        let dpm = |keeps| Dpm { keeps, ..Dpm::default() };
+        let message = refusal(gpu, &dpm(4), of(17, 1, 1));
         says(&message, &["dpm", "4624 bytes", "1024", "at most 64 texels"]);
-        let message = refusal(gpu, &dpm(4, 1), Size::square(9));
+        let message = refusal(gpu, &dpm(4), of(9, 1, 1));
         says(&message, &["dpm", "1296 bytes", "at most 3 triangles per texel, or 64 texels"]);
-        let message = refusal(gpu, &dpm(1, 22), Size::square(4));
+        let message = refusal(gpu, &dpm(1), of(4, 22, 1));
         says(&message, &["dpm", "1056 bytes", "corners", "at most 21 triangles"]);
-        let message = refusal(gpu, &exact(1, 2048 * 2048 + 1), SIZE);
+        let message = refusal(gpu, &Exact, of(8, 2048 * 2048 + 1, 1));
         says(&message, &["exact", "4194305 triangles", "2049 rows", "at most 4194304 triangles"]);
     });
 }
@@ -316,7 +318,7 @@ fn main() {
     trials.add("biases that are no numbers", bias);
     trials.add("a caller's depth that cannot be read", callers_depth);
     trials.add("a caller's depth of any format", depth_formats_are_taken);
-    trials.add("lists that have no room", lists);
+    trials.add("triangles beyond what is possible", triangles);
     trials.add("more views than there is room for", too_many_views);
     trials.add("the least that WebGPU promises", least_devices);
     trials.add_plain("names and settings that do not exist", specs);

@@ -9,7 +9,7 @@
 mod common;
 
 use antumbra::{
-    Options, ShadowMap, Size, Technique, technique,
+    Capacity, Options, ShadowMap, Size, Technique, technique,
     technique::{Bias, Caster},
 };
 use antumbra_testing::{
@@ -99,11 +99,12 @@ fn triangles() -> Vec<Vec3> {
 }
 
 /// Visibility of receivers behind casters that are triangles.
-fn behind(gpu: &Gpu, spec: &str, size: Size, casters: &[Vec3], receivers: &[Receiver]) -> Vec<f32> {
+fn behind(gpu: &Gpu, spec: &str, options: Options, casters: &[Vec3], receivers: &[Receiver]) -> Vec<f32> {
     let technique = technique::parse(spec).unwrap();
     let mesh = common::caster_mesh(gpu, casters);
-    let mut shadows = ShadowMap::new(&gpu.device, technique.as_ref(), size).unwrap();
-    shadows.prepare(&gpu.queue, &[common::view(size)]).unwrap();
+    let view = common::view(options.size);
+    let mut shadows = ShadowMap::new(&gpu.device, technique.as_ref(), options).unwrap();
+    shadows.prepare(&gpu.queue, &[view]).unwrap();
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     shadows.encode(&mut encoder, |view, pass| mesh.draw(view, pass));
     gpu.queue.submit([encoder.finish()]);
@@ -113,7 +114,7 @@ fn behind(gpu: &Gpu, spec: &str, size: Size, casters: &[Vec3], receivers: &[Rece
 fn picture(gpu: &Gpu, spec: &str, bias: Bias) -> Vec<f32> {
     let technique = technique::parse(spec).unwrap();
     if technique.caster() != Caster::Depth {
-        return behind(gpu, spec, SIZE, &triangles(), &receivers());
+        return behind(gpu, spec, SIZE.into(), &triangles(), &receivers());
     }
     picture_of(gpu, technique.as_ref(), bias)
 }
@@ -379,6 +380,11 @@ const SLANTED: [[(f32, f32); 3]; 2] =
 /// How many of the picture's receivers behind such triangles a technique answers wrongly, from a map so
 /// small that many fall into each texel.
 fn wrong_behind(gpu: &Gpu, spec: &str, triangles: &[[(f32, f32); 3]]) -> usize {
+    wrong_within(gpu, spec, Capacity::default(), triangles)
+}
+
+/// The same with that capacity.
+fn wrong_within(gpu: &Gpu, spec: &str, capacity: Capacity, triangles: &[[(f32, f32); 3]]) -> usize {
     let corner = |(u, v): (f32, f32)| Vec3::new(2.0 * u - 1.0, 1.0 - 2.0 * v, 0.3);
     let corners: Vec<Vec3> = triangles.iter().flatten().map(|c| corner(*c)).collect();
     let receivers: Vec<Receiver> =
@@ -390,7 +396,8 @@ fn wrong_behind(gpu: &Gpu, spec: &str, triangles: &[[(f32, f32); 3]]) -> usize {
             side(a, b) >= 0.0 && side(b, c) >= 0.0 && side(c, a) >= 0.0
         })
     };
-    let found = behind(gpu, spec, Size::square(20), &corners, &receivers);
+    let options = Options::from(Size::square(20)).capacity(capacity);
+    let found = behind(gpu, spec, options, &corners, &receivers);
     let differs = |(r, v): (&Receiver, f32)| (v < 0.5) != covered(r.uv);
     receivers.iter().zip(found).filter(|pair| differs(*pair)).count()
 }
@@ -439,18 +446,20 @@ fn dpm_resolves_what_has_room(gpu: &Gpu) {
     let wrong = |spec: &str, triangles: &[[(f32, f32); 3]]| wrong_behind(gpu, spec, triangles);
     let (few, roomy) = (wrong("dpm", &SLANTED), wrong("dpm.keeps=32", &fan()));
     assert!(few <= 1 && roomy <= 1, "{few} behind {}, {roomy} behind a fan", SLANTED.len());
-    let (full, cut) = (wrong("dpm.keeps=2", &fan()), wrong("dpm.triangles=1", &fan()));
-    assert!(full < 120 && cut > 5 * full.max(10), "{full} of full texels, {cut} with room for one triangle");
+    let one = Capacity { triangles: 1, ..Capacity::default() };
+    let (full, cut) = (wrong("dpm.keeps=2", &fan()), wrong_within(gpu, "dpm", one, &fan()));
+    assert!(full < 120 && cut > 5 * full.max(10), "{full} of full texels, {cut} with one triangle");
 }
 
 /// However small the map and the triangles.
 fn exact_resolves_everything(gpu: &Gpu) {
     let fan = fan();
     for triangles in [&SLANTED[..], &fan] {
-        let wrong = wrong_behind(gpu, "exact.per_texel=64", triangles);
+        let enough = Capacity { triangles: 60, triangles_per_texel: 64 };
+        let wrong = wrong_within(gpu, "exact", enough, triangles);
         assert!(wrong <= 1, "{wrong} behind {} triangles", triangles.len());
-        let cut = wrong_behind(gpu, "exact.triangles=1", triangles);
-        assert!(cut > 5, "{cut} with room for one");
+        let cut = wrong_within(gpu, "exact", Capacity { triangles: 1, ..enough }, triangles);
+        assert!(cut > 5, "{cut} with one triangle");
     }
 }
 

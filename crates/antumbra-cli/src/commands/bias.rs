@@ -12,6 +12,7 @@ use antumbra_lab::{
     gpu::Gpu,
 };
 use anyhow::Result;
+use serde_json::json;
 use std::io::{self, Write};
 
 pub(crate) fn run(arguments: &Bias) -> Result<()> {
@@ -42,16 +43,20 @@ pub(crate) fn run(arguments: &Bias) -> Result<()> {
             map_size: arguments.size,
             resolution: setting.resolution,
         };
-        let rows = {
+        let bias::Study { rows, left_out } = {
             let bar = Bar::new();
             bias::study(&gpu, &request, &bar)?
         };
+        super::note_left_out(&left_out);
         if arguments.json {
-            all.insert(setting.name, serde_json::to_value(rows)?);
+            all.insert(setting.name, json!({ "rows": rows, "left_out": left_out }));
             continue;
         }
         writeln!(out, "{}", setting.name)?;
         let cells = |row: &bias::Row| {
+            if let Some(why) = &row.invalid {
+                return vec![row.technique.clone(), format!("{}  invalid: {why}", row.bias)];
+            }
             vec![
                 row.technique.clone(),
                 row.bias.clone(),
@@ -61,7 +66,7 @@ pub(crate) fn run(arguments: &Bias) -> Result<()> {
                 format!("{:.3}", 100.0 * row.over_darkening),
             ]
         };
-        let table: Vec<Vec<String>> = rows.iter().map(cells).collect();
+        let table: Vec<Vec<String>> = rows.iter().map(cells).chain(super::left_out_rows(&left_out)).collect();
         table::print(out, &["technique", "bias", "acne %", "detached texels", "RMSE", "dark %"], &table)?;
         for standing in bias::standings(&rows) {
             writeln!(out, "{}", standing_line(&standing))?;

@@ -64,9 +64,10 @@ fn warn(results: &Results) {
              reason; do not trust these scores (is the scene of extreme size?)"
         );
     }
-    for shortage in results.techniques.iter().filter_map(|t| t.shortage.as_ref()) {
-        let _ = writeln!(io::stderr(), "warning: {shortage}");
+    for (spec, why) in results.techniques.iter().filter_map(|t| Some((&t.spec, t.invalid.as_ref()?))) {
+        let _ = writeln!(io::stderr(), "warning: {spec} is invalid: {why}");
     }
+    super::note_left_out(&results.left_out);
 }
 
 fn print(out: &mut impl Write, results: &Results) -> Result<()> {
@@ -86,6 +87,9 @@ fn print(out: &mut impl Write, results: &Results) -> Result<()> {
     let percent = |v: Option<f64>| v.map_or("-".into(), |v| format!("{:.2}", 100.0 * v));
     let work = |value: Option<f64>| value.map_or("-".into(), |v| v.to_string());
     let row = |t: &TechniqueResult| {
+        if let Some(why) = &t.invalid {
+            return vec![t.spec.clone(), format!("invalid: {why}")];
+        }
         let (ideal, hard) = (&t.scores.light_space, &t.scores.hard);
         vec![
             t.spec.clone(),
@@ -108,6 +112,7 @@ fn print(out: &mut impl Write, results: &Results) -> Result<()> {
         rows.push(vec![format!("- {}", family.name())]);
         rows.extend(members.into_iter().map(row));
     }
+    rows.extend(super::left_out_rows(&results.left_out));
     table::print(
         out,
         &[
@@ -127,7 +132,7 @@ fn print(out: &mut impl Write, results: &Results) -> Result<()> {
         ],
         &rows,
     )?;
-    for technique in &results.techniques {
+    for technique in results.valid() {
         for class in &technique.classes {
             writeln!(
                 out,

@@ -55,6 +55,7 @@ pub(crate) fn run(arguments: &Flicker) -> Result<()> {
         flicker::measure(&gpu, &request, &bar)?
     };
     let folder = flicker::write(&outcome, &arguments.output)?;
+    super::note_left_out(&outcome.results.left_out);
     let out = &mut io::stdout();
     if arguments.json {
         writeln!(out, "{}", serde_json::to_string_pretty(&outcome.results)?)?;
@@ -83,10 +84,13 @@ fn print(out: &mut impl Write, results: &Results) -> Result<()> {
     let cell = |kept: &BTreeMap<Promise, Measured>, promise| {
         kept.get(&promise).map_or("-".into(), |measured| format!("{:.3}", 1e3 * measured.mean))
     };
-    let rows: Vec<Vec<String>> = results
+    let rows = results
         .techniques
         .iter()
         .map(|technique| {
+            if let Some(why) = &technique.invalid {
+                return vec![technique.spec.clone(), format!("invalid: {why}")];
+            }
             vec![
                 technique.spec.clone(),
                 technique.promise.title().into(),
@@ -98,7 +102,8 @@ fn print(out: &mut impl Write, results: &Results) -> Result<()> {
                 cell(&technique.crawl, Promise::LightSpace),
             ]
         })
-        .collect();
+        .chain(super::left_out_rows(&results.left_out));
+    let rows: Vec<Vec<String>> = rows.collect();
     let header = [
         "technique",
         "own truth",

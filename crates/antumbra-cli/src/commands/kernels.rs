@@ -9,7 +9,7 @@ use crate::{
 use antumbra_lab::{
     compare::{self, Request},
     gpu::Gpu,
-    results::TechniqueResult,
+    results::{LeftOut, TechniqueResult},
     timing,
 };
 use anyhow::{Result, bail};
@@ -21,6 +21,16 @@ use std::io::{self, Write};
 struct Row {
     kernel: u32,
     technique: String,
+    /// `None` where the technique was left out or is invalid, with the reason in `missing`.
+    #[serde(flatten)]
+    measured: Option<Measured>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    missing: Option<String>,
+}
+
+/// Errors and costs.
+#[derive(Debug, Serialize)]
+struct Measured {
     rmse_light_space: f64,
     rmse_screen_space: f64,
     /// Passes between casting and lighting, milliseconds.
@@ -33,11 +43,28 @@ struct Row {
 
 impl Row {
     fn new(kernel: u32, result: &TechniqueResult) -> Self {
+        let missing = result.invalid.as_ref().map(|why| format!("invalid: {why}"));
+        let measured = missing.is_none().then(|| Measured::new(result));
+        Self { kernel, technique: result.spec.clone(), measured, missing }
+    }
+
+    fn left_out(kernel: u32, left_out: &LeftOut) -> Self {
+        let missing = Some(format!("left out: {}", left_out.reason));
+        Self { kernel, technique: left_out.spec.clone(), measured: None, missing }
+    }
+
+    fn cells(&self) -> Vec<String> {
+        let rest =
+            self.measured.as_ref().map_or_else(|| self.missing.iter().cloned().collect(), Measured::cells);
+        [vec![self.kernel.to_string(), self.technique.clone()], rest].concat()
+    }
+}
+
+impl Measured {
+    fn new(result: &TechniqueResult) -> Self {
         let ms = |name| timing::pass_ms(&result.time, name).unwrap_or(0.0);
         let work = result.work.as_ref();
         Self {
-            kernel,
-            technique: result.spec.clone(),
             rmse_light_space: result.scores.light_space.rmse,
             rmse_screen_space: result.scores.screen_space.rmse,
             filter_ms: ["convert", "blur", "mips", "sum"].map(ms).iter().sum(),
@@ -50,8 +77,6 @@ impl Row {
 
     fn cells(&self) -> Vec<String> {
         vec![
-            self.kernel.to_string(),
-            self.technique.clone(),
             format!("{:.4}", self.rmse_light_space),
             format!("{:.4}", self.rmse_screen_space),
             format!("{:.1}", self.filter_ms),
@@ -96,8 +121,10 @@ pub(crate) fn run(arguments: &Kernels) -> Result<()> {
         if request.techniques.is_empty() {
             continue;
         }
-        let comparison = compare::compare(&gpu, &request, &Bar::new())?;
-        rows.extend(comparison.results.techniques.iter().map(|result| Row::new(kernel, result)));
+        let results = compare::compare(&gpu, &request, &Bar::new())?.results;
+        rows.extend(results.techniques.iter().map(|result| Row::new(kernel, result)));
+        rows.extend(results.left_out.iter().map(|left_out| Row::left_out(kernel, left_out)));
+        super::note_left_out(&results.left_out);
     }
     let out = &mut io::stdout();
     if arguments.json {

@@ -29,9 +29,9 @@ pub(crate) fn run(arguments: &Maps) -> Result<()> {
     let gpu = Gpu::new()?;
     let mut stage = Stage::new(&gpu, &setting.geometry, &setting.camera, &setting.light, setting.resolution)?;
     let (geometry, light) = (&setting.geometry, &setting.light);
-    let (contestants, view) =
+    let (entered, view) =
         compare::enter(&gpu, &mut stage, geometry, light, &techniques, arguments.scene.size)?;
-    let Some(contestant) = contestants.first() else { bail!("no technique was named") };
+    let Some(contestant) = entered.contestants.first() else { bail!("no technique was named") };
     let shadows = &contestant.shadows;
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     shadows.encode(&mut encoder, |view, pass| stage.draw_casters(&contestant.casters, view, pass));

@@ -12,7 +12,6 @@ use antumbra_lab::{
     gpu::Gpu,
     lighting::Lighting,
     plane::Plane,
-    room::Room,
     stage::Stage,
 };
 use antumbra_truth::{CameraRays, Tracer};
@@ -50,7 +49,9 @@ pub(crate) fn run(arguments: &Render) -> Result<()> {
         false => {
             let (geometry, light) = (&setting.geometry, &setting.light);
             let entries: Vec<_> = techniques.into_iter().map(|technique| (technique, bias)).collect();
-            compare::enter_biased(&gpu, &mut stage, geometry, light, &entries, arguments.scene.size)?.0
+            compare::enter_biased(&gpu, &mut stage, geometry, light, &entries, arguments.scene.size)?
+                .0
+                .contestants
         }
     };
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
@@ -68,9 +69,8 @@ pub(crate) fn run(arguments: &Render) -> Result<()> {
     }
     lighting.encode_picture(&mut encoder, &stage);
     gpu.finish(encoder)?;
-    let rooms = contestants.iter().filter_map(|c| Room::read(&gpu, &c.shadows).transpose());
-    for shortage in rooms.collect::<Result<Vec<_>>>()?.iter().filter_map(Room::shortage) {
-        let _ = writeln!(io::stderr(), "warning: {shortage}");
+    for why in contestants.iter().filter_map(Contestant::invalid) {
+        let _ = writeln!(io::stderr(), "warning: {} is invalid: {why}", arguments.technique);
     }
     let mut shares = Vec::new();
     let bytes = match (extension.as_str(), arguments.show) {

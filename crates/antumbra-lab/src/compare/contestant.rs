@@ -4,13 +4,15 @@ use super::view;
 use crate::{
     gpu::Gpu,
     lighting::{Lighting, Lookup},
+    occupancy::Occupancy,
     plane::Plane,
+    results::{LeftOut, Refused},
     stage::{Casters, Stage},
     timing::Entrant,
 };
-use antumbra::{Options, Pipelines, ShadowMap, Size, Technique, View, technique, technique::Bias};
+use antumbra::{Capacity, Options, Pipelines, ShadowMap, Size, Technique, View, technique, technique::Bias};
 use antumbra_scene::{Geometry, Light};
-use anyhow::{Context, Result};
+use anyhow::Result;
 
 /// A technique with all that drawing it takes.
 #[derive(Debug)]
@@ -23,9 +25,74 @@ pub struct Contestant {
     pub casters: Casters,
     /// The pass that asks for classes, if it has any.
     pub classes: Option<Lookup>,
+    /// Its index among the entries that [`contestants`] was given.
+    pub entry: usize,
+    /// What its casters needed when [`draw_maps`](Self::draw_maps) last drew them, if it keeps triangles by id.
+    pub occupancy: Option<Occupancy>,
+    options: Options,
+}
+
+/// Techniques made ready, and those that could not be.
+#[derive(Debug)]
+pub struct Entered {
+    /// In the order of the entries; at least one.
+    pub contestants: Vec<Contestant>,
+    /// What the device or the scene refuses, in the order of the entries.
+    pub left_out: Vec<LeftOut>,
 }
 
 impl Contestant {
+    /// Allocates everything, without a view yet.
+    fn new(
+        gpu: &Gpu,
+        stage: &Stage,
+        technique: &dyn Technique,
+        options: &Options,
+        entry: usize,
+    ) -> Result<Self> {
+        let shadows = ShadowMap::new(&gpu.device, technique, options.clone())?;
+        let lookup = Lookup::new(gpu, stage, &shadows);
+        let casters = Casters::new(gpu, stage, &shadows)?;
+        let classes = Lookup::classes(gpu, stage, &shadows);
+        gpu.check()?;
+        Ok(Self { shadows, lookup, casters, classes, entry, occupancy: None, options: options.clone() })
+    }
+
+    /// Draws its maps for the views that it was last given. A map with too little memory for the triangles
+    /// that share texels is allocated anew and drawn again; where the device refuses that, shadows are missing,
+    /// which [`invalid`](Self::invalid) tells.
+    ///
+    /// # Errors
+    /// If the device is lost.
+    pub fn draw_maps(&mut self, gpu: &Gpu, stage: &Stage) -> Result<()> {
+        self.cast(gpu, stage)?;
+        let Some(needed) = self.occupancy.as_ref().and_then(Occupancy::needed) else { return Ok(()) };
+        // Later views may need a little more.
+        let per_texel = needed.triangles_per_texel;
+        let capacity = Capacity { triangles_per_texel: per_texel + per_texel / 4, ..needed };
+        let options = self.options.clone().capacity(capacity);
+        if let Ok(mut larger) = Self::new(gpu, stage, self.shadows.technique(), &options, self.entry) {
+            larger.shadows.prepare(&gpu.queue, self.shadows.views())?;
+            larger.cast(gpu, stage)?;
+            *self = larger;
+        }
+        Ok(())
+    }
+
+    fn cast(&mut self, gpu: &Gpu, stage: &Stage) -> Result<()> {
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        self.shadows.encode(&mut encoder, |view, pass| stage.draw_casters(&self.casters, view, pass));
+        gpu.finish(encoder)?;
+        self.occupancy = Occupancy::read(gpu, &self.shadows)?;
+        Ok(())
+    }
+
+    /// Why what it shows is worth nothing, if so: triangles that its map had no memory for.
+    #[must_use]
+    pub fn invalid(&self) -> Option<String> {
+        self.occupancy.as_ref().and_then(Occupancy::shortage)
+    }
+
     /// Draws its maps and, on the surfaces that the stage already holds, its visibility.
     pub fn encode(&self, encoder: &mut wgpu::CommandEncoder, stage: &Stage, lighting: &Lighting) {
         self.shadows.encode(encoder, |view, pass| stage.draw_casters(&self.casters, view, pass));
@@ -63,15 +130,16 @@ pub fn enter(
     light: &Light,
     techniques: &[Box<dyn Technique>],
     map_size: u32,
-) -> Result<(Vec<Contestant>, View)> {
+) -> Result<(Entered, View)> {
     let entries: Vec<_> = techniques.iter().map(|t| (t.clone(), Bias::Auto)).collect();
     enter_biased(gpu, stage, geometry, light, &entries, map_size)
 }
 
-/// [`contestants`] with the light's only view.
+/// [`contestants`] with the light's only view. Maps that keep triangles by id are drawn, so that they have
+/// memory for all of them.
 ///
 /// # Errors
-/// Settings that the device cannot do (naming the technique), a light or camera without a view.
+/// As [`contestants`]; a light or camera without a view.
 pub fn enter_biased(
     gpu: &Gpu,
     stage: &mut Stage,
@@ -79,39 +147,45 @@ pub fn enter_biased(
     light: &Light,
     entries: &[(Box<dyn Technique>, Bias)],
     map_size: u32,
-) -> Result<(Vec<Contestant>, View)> {
-    let mut contestants = contestants(gpu, stage, entries, map_size)?;
-    let maps: Vec<&ShadowMap> = contestants.iter().map(|c| &c.shadows).collect();
+) -> Result<(Entered, View)> {
+    let mut entered = contestants(gpu, stage, entries, map_size)?;
+    let maps: Vec<&ShadowMap> = entered.contestants.iter().map(|c| &c.shadows).collect();
     let view = view(stage, geometry, light, &maps)?;
-    aim(gpu, stage, &mut contestants, &view)?;
-    Ok((contestants, view))
+    aim(gpu, stage, &mut entered.contestants, &view)?;
+    for contestant in &mut entered.contestants {
+        if contestant.shadows.technique().caster().keeps_ids() {
+            contestant.draw_maps(gpu, stage)?;
+        }
+    }
+    Ok((entered, view))
 }
 
 /// A shadow map of `map_size` × `map_size` texels for every technique and its bias, sharing pipelines,
-/// without a view yet.
+/// without a view yet. Those that the device or the scene refuses are left out.
 ///
 /// # Errors
-/// Settings that the device cannot do, naming the technique.
+/// [`Refused`] where none is left.
 pub fn contestants(
     gpu: &Gpu,
     stage: &Stage,
     entries: &[(Box<dyn Technique>, Bias)],
     map_size: u32,
-) -> Result<Vec<Contestant>> {
+) -> Result<Entered> {
     let pipelines = Pipelines::new(&gpu.device);
-    let mut contestants = Vec::with_capacity(entries.len());
-    for (technique, bias) in entries {
+    let (mut contestants, mut left_out) = (Vec::with_capacity(entries.len()), Vec::new());
+    for (entry, (technique, bias)) in entries.iter().enumerate() {
         let options = Options::from(Size::square(map_size)).pipelines(&pipelines).bias(*bias);
-        let shadows = ShadowMap::new(&gpu.device, technique.as_ref(), options)
-            .with_context(|| technique::spec(technique.as_ref()))?;
-        let lookup = Lookup::new(gpu, stage, &shadows);
-        let casters =
-            Casters::new(gpu, stage, &shadows).with_context(|| technique::spec(technique.as_ref()))?;
-        let classes = Lookup::classes(gpu, stage, &shadows);
-        gpu.check().with_context(|| technique::spec(technique.as_ref()))?;
-        contestants.push(Contestant { shadows, lookup, casters, classes });
+        let options = options.capacity(stage.capacity());
+        match Contestant::new(gpu, stage, technique.as_ref(), &options, entry) {
+            Ok(contestant) => contestants.push(contestant),
+            Err(reason) => left_out
+                .push(LeftOut { spec: technique::spec(technique.as_ref()), reason: format!("{reason:#}") }),
+        }
     }
-    Ok(contestants)
+    if contestants.is_empty() && !left_out.is_empty() {
+        return Err(Refused(left_out).into());
+    }
+    Ok(Entered { contestants, left_out })
 }
 
 /// Gives all contestants a view, and the stage the views that they draw casters for.

@@ -1,24 +1,24 @@
 //! What the results say of techniques, scene and machine.
 
-use super::{Rendered, Request};
+use super::{Contestant, Rendered, Request};
 use crate::{
     gpu::Gpu,
     results::{
         AdapterFacts, BoundsFacts, CameraFacts, Family, LensFacts, Lifetime, LightFacts, MemoryItem,
         MemoryResult, SceneFacts, TechniqueResult, TimeResult, Work,
     },
-    room::Room,
 };
 use antumbra::{Memory, ShadowMap, technique};
 use antumbra_scene::{Light, Projection};
 use anyhow::{Context, Result};
 
 /// One entry of the results.
-pub(super) fn technique(shadows: &ShadowMap, rendered: Rendered, time: TimeResult) -> TechniqueResult {
+pub(super) fn technique(contestant: &Contestant, rendered: Rendered, time: TimeResult) -> TechniqueResult {
+    let shadows = &contestant.shadows;
     let page = shadows.technique().page();
     let mut technique = shadows.technique().boxed();
     let settings = technique.parameters().iter().map(|p| (p.name.to_string(), value(&p.value()))).collect();
-    let Rendered { scores, classes, regions, images, room } = rendered;
+    let Rendered { scores, classes, regions, images } = rendered;
     TechniqueResult {
         name: page.name.into(),
         spec: technique::spec(shadows.technique()),
@@ -36,19 +36,20 @@ pub(super) fn technique(shadows: &ShadowMap, rendered: Rendered, time: TimeResul
         time,
         memory: memory(&shadows.memory()),
         work: Some(work(shadows)),
-        shortage: room.as_ref().and_then(Room::shortage),
-        explain: explain(shadows, room.as_ref()),
+        invalid: contestant.invalid(),
+        explain: explain(contestant),
         images,
     }
 }
 
 /// What the library says of itself, and how much its lists held.
-fn explain(shadows: &ShadowMap, room: Option<&Room>) -> Vec<String> {
-    let held = room.and_then(|room| room.lists.as_ref()).map(|lists| {
+fn explain(contestant: &Contestant) -> Vec<String> {
+    let occupancy = contestant.occupancy.as_ref();
+    let held = occupancy.and_then(|occupancy| occupancy.lists.as_ref()).map(|lists| {
         let (mean, longest) = (lists.mean(), lists.longest);
         format!("lists held {} triangles, {mean:.2} per texel, at most {longest}", lists.entries)
     });
-    shadows.explain().into_iter().chain(held).collect()
+    contestant.shadows.explain().into_iter().chain(held).collect()
 }
 
 /// What a shadow map takes, as results say it.

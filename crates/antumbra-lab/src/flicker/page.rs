@@ -5,6 +5,7 @@ use crate::{
     chart::{self, Curve, Panel},
     files,
     report::{STYLE, escape, text},
+    results::LeftOut,
 };
 use anyhow::Result;
 use base64::{Engine, engine::general_purpose::STANDARD};
@@ -104,9 +105,8 @@ fn thousandths(value: f64) -> String {
 }
 
 fn answer(results: &Results) -> String {
-    let measured =
-        |technique: &&TechniqueFlicker| technique.name != "hard" && technique.ratio_to_hard.is_some();
-    let ratio = |technique: &TechniqueFlicker| technique.ratio_to_hard.unwrap_or(f64::INFINITY);
+    let measured = |technique: &&TechniqueFlicker| technique.name != "hard" && technique.rank().is_some();
+    let ratio = |technique: &TechniqueFlicker| technique.rank().unwrap_or(f64::INFINITY);
     let order = |a: &&TechniqueFlicker, b: &&TechniqueFlicker| ratio(a).total_cmp(&ratio(b));
     let all = || results.techniques.iter().filter(measured);
     let (Some(best), Some(worst)) = (all().min_by(order), all().max_by(order)) else {
@@ -145,13 +145,17 @@ fn table(results: &Results) -> String {
     }
     html += "</tr></thead><tbody>";
     for technique in &results.techniques {
-        let ratio = technique.ratio_to_hard.map_or("–".into(), |ratio| format!("{ratio:.3}"));
+        let ratio = technique.rank().map_or("–".into(), |ratio| format!("{ratio:.3}"));
         html += &format!(
             "<tr><th scope=\"row\"><span class=\"mark {}\"></span><span class=\"name\">{}</span><code>{}</code></th><td><b>{ratio}</b></td>",
             escape(&technique.family),
             escape(&technique.title),
             escape(&technique.spec),
         );
+        if let Some(why) = &technique.invalid {
+            html += &format!("<td class=\"starts across\" colspan=\"5\">invalid: {}</td></tr>", escape(why));
+            continue;
+        }
         for (i, (where_, promise)) in columns.iter().enumerate() {
             let kept = if *where_ == "flicker" { &technique.flicker } else { &technique.crawl };
             let cell = kept.get(promise).map_or("–".into(), |measured| {
@@ -164,14 +168,20 @@ fn table(results: &Results) -> String {
         }
         html += "</tr>";
     }
+    for LeftOut { spec, reason } in &results.left_out {
+        html += &format!(
+            "<tr><th scope=\"row\"><code>{}</code></th><td>–</td><td class=\"starts across\" colspan=\"5\">left out: {}</td></tr>",
+            escape(spec),
+            escape(reason)
+        );
+    }
     html + "</tbody></table>"
 }
 
 /// Flicker of every pair of frames, each technique against its own truth.
 fn plot(results: &Results) -> Panel {
-    let curves: Vec<Curve> = results
-        .techniques
-        .iter()
+    let valid = results.techniques.iter().filter(|technique| technique.invalid.is_none());
+    let curves: Vec<Curve> = valid
         .filter_map(|technique| {
             let frames = &technique.flicker.get(&technique.promise)?.frames;
             let points = frames.iter().enumerate().map(|(i, v)| [(i + 1) as f64, 1e3 * v]).collect();

@@ -2,7 +2,7 @@
 
 use crate::{
     motion::Path,
-    results::{AdapterFacts, Program},
+    results::{AdapterFacts, LeftOut, Program},
 };
 use antumbra::{Technique, technique::Family};
 use serde::{Deserialize, Serialize};
@@ -85,6 +85,17 @@ pub struct TechniqueFlicker {
     pub flicker: BTreeMap<Promise, Measured>,
     /// On surfaces; has no screen-space ideal.
     pub crawl: BTreeMap<Promise, Measured>,
+    /// Why these numbers are worth nothing, if so: triangles that its map had no memory for in some frame.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub invalid: Option<String>,
+}
+
+impl TechniqueFlicker {
+    /// [`ratio_to_hard`](Self::ratio_to_hard) if it is worth anything.
+    #[must_use]
+    pub fn rank(&self) -> Option<f64> {
+        self.ratio_to_hard.filter(|_| self.invalid.is_none())
+    }
 }
 
 /// Everything that was measured.
@@ -126,6 +137,9 @@ pub struct Results {
     pub texel_changes: u32,
     /// In the order that they were named.
     pub techniques: Vec<TechniqueFlicker>,
+    /// Techniques that were asked for and refused.
+    #[serde(default)]
+    pub left_out: Vec<LeftOut>,
     /// Names of their pictures of where it flickers, in the same order.
     pub heat_maps: Vec<String>,
     /// Time spent on truths, seconds.

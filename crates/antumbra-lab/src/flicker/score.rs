@@ -176,6 +176,7 @@ impl Series {
                 ratio_to_hard: ratio(own, base),
                 flicker: frames(&single.flicker, hard.map(|h| &h.flicker)),
                 crawl: frames(&single.crawl, hard.map(|h| &h.crawl)),
+                invalid: None,
             });
         }
         Ok((techniques, files))

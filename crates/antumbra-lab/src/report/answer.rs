@@ -3,9 +3,9 @@
 use super::text::{self, escape, list, milliseconds, percent, significant};
 use crate::results::{Results, TechniqueResult};
 
-/// The technique with the smallest cost; the first of equals.
+/// The valid technique with the smallest cost; the first of equals.
 pub(super) fn best(results: &Results, cost: impl Fn(&TechniqueResult) -> f64) -> Option<&TechniqueResult> {
-    results.techniques.iter().min_by(|a, b| cost(a).total_cmp(&cost(b)))
+    results.valid().min_by(|a, b| cost(a).total_cmp(&cost(b)))
 }
 
 fn name(technique: &TechniqueResult) -> String {
@@ -51,7 +51,17 @@ pub(super) fn paragraph(results: &Results) -> String {
                 .into(),
         );
     }
-    format!("<p>{}</p>", sentences.join(" "))
+    format!("<p>{}</p>{}", sentences.join(" "), missing(results))
+}
+
+/// Techniques whose numbers are worth nothing or do not exist, and why.
+fn missing(results: &Results) -> String {
+    let invalid = results.techniques.iter().filter_map(|t| Some((&t.spec, "invalid", t.invalid.as_ref()?)));
+    let left_out = results.left_out.iter().map(|l| (&l.spec, "left out", &l.reason));
+    let line = |(spec, what, why): (&String, &str, &String)| {
+        format!("<p class=\"quiet\"><code>{}</code> {what}: {}.</p>", escape(spec), escape(why))
+    };
+    invalid.chain(left_out).map(line).collect()
 }
 
 fn other_truths(results: &Results) -> Option<String> {
@@ -73,7 +83,7 @@ fn fastest(results: &Results) -> Option<String> {
     let overlaps =
         |t: &&TechniqueResult| !std::ptr::eq(*t, fastest) && t.time.frame.min_ms <= fastest.time.frame.max_ms;
     let label = |t: &TechniqueResult| escape(&text::label(results, t));
-    let rivals: Vec<String> = results.techniques.iter().filter(overlaps).map(label).collect();
+    let rivals: Vec<String> = results.valid().filter(overlaps).map(label).collect();
     let caution = match rivals.len() {
         0 => String::new(),
         1..=3 => format!(", though its range overlaps that of {}", list(&rivals)),
@@ -86,9 +96,9 @@ fn baseline(results: &Results) -> String {
     let none = &results.truth.no_shadow;
     let beaten = |t: &&TechniqueResult| t.scores.hard.rmse >= none.rmse;
     let label = |t: &TechniqueResult| escape(&text::label(results, t));
-    let losers: Vec<String> = results.techniques.iter().filter(beaten).map(label).collect();
+    let losers: Vec<String> = results.valid().filter(beaten).map(label).collect();
     let verdict = match losers.len() {
-        0 if results.techniques.is_empty() => String::new(),
+        0 if results.valid().next().is_none() => String::new(),
         0 => " Every technique has a smaller error than that.".into(),
         1 => format!(" {} is no better than that.", losers[0]),
         _ => format!(" {} are no better than that.", list(&losers)),

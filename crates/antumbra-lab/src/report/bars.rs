@@ -10,7 +10,7 @@ const PASS_COLORS: usize = 8;
 /// Stacked bars of the passes' medians, and their table.
 pub(super) fn time(results: &Results) -> String {
     let mut names: Vec<&str> = Vec::new();
-    for pass in results.techniques.iter().flat_map(|t| &t.time.passes) {
+    for pass in results.valid().flat_map(|t| &t.time.passes) {
         if !names.contains(&pass.name.as_str()) {
             names.push(&pass.name);
         }
@@ -23,10 +23,9 @@ pub(super) fn time(results: &Results) -> String {
     let extent = |t: &TechniqueResult| {
         t.time.passes.iter().map(|p| p.median_ms).sum::<f64>().max(t.time.frame.median_ms)
     };
-    let longest = results.techniques.iter().map(extent).fold(0.0, f64::max);
+    let longest = results.valid().map(extent).fold(0.0, f64::max);
     let bars: String = results
-        .techniques
-        .iter()
+        .valid()
         .map(|t| {
             let segments: String =
                 t.time.passes.iter().map(|pass| segment(pass, longest, color(&pass.name))).collect();
@@ -87,8 +86,7 @@ fn pass_table(results: &Results) -> String {
         )
     };
     let groups: String = results
-        .techniques
-        .iter()
+        .valid()
         .map(|t| {
             let head = row_head(t).replacen("scope=\"row\"", "scope=\"rowgroup\" colspan=\"6\"", 1);
             let rows: String = t.time.passes.iter().map(row).collect();
@@ -106,8 +104,8 @@ fn pass_table(results: &Results) -> String {
 /// Kept and transient bytes as bars; every texture in a table that opens.
 pub(super) fn memory(results: &Results) -> String {
     let total = |t: &TechniqueResult| (t.memory.kept_bytes + t.memory.transient_bytes) as f64;
-    let largest = results.techniques.iter().map(total).fold(0.0, f64::max);
-    let items: String = results.techniques.iter().map(|t| memory_item(t, largest)).collect();
+    let largest = results.valid().map(total).fold(0.0, f64::max);
+    let items: String = results.valid().map(|t| memory_item(t, largest)).collect();
     format!(
         "<ul class=\"key\"><li><span class=\"swatch kept\"></span>kept: lookups need it</li>\
          <li><span class=\"swatch transient\"></span>transient: only the passes need it</li></ul>{items}"

@@ -96,13 +96,13 @@ fn points(results: &Results, truth: Truth, cost: Cost) -> Vec<Point<'_>> {
     let dominated = |t: &TechniqueResult| {
         let (x, y) = place(t);
         let beats = |(a, b): (f64, f64)| a <= x && b <= y && (a < x || b < y);
-        results.techniques.iter().any(|other| beats(place(other)))
+        results.valid().any(|other| beats(place(other)))
     };
     let point = |technique| {
         let (cost, error) = place(technique);
         Point { technique, cost, error, leads: !dominated(technique) }
     };
-    results.techniques.iter().map(point).collect()
+    results.valid().map(point).collect()
 }
 
 fn drawing(points: &[Point<'_>], cost: Cost) -> String {

@@ -125,7 +125,7 @@ document.querySelectorAll("table.sortable").forEach((table) => {
     heads.forEach((other) => other.closest("th").removeAttribute("aria-sort"));
     head.setAttribute("aria-sort", direction);
     const sign = direction === "ascending" ? 1 : -1;
-    const value = (row) => row.cells[column].dataset.value;
+    const value = (row) => row.cells[column]?.dataset.value;
     const compare = (a, b) => {
       const [x, y] = [value(a), value(b)];
       if (x === undefined || y === undefined) return (x === undefined) - (y === undefined);

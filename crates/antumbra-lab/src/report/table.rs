@@ -4,7 +4,7 @@ use super::column::{self, Better, Column};
 use super::text::{escape, percent, significant};
 use crate::classes::ClassShare;
 use crate::metrics::Score;
-use crate::results::{Family, Results, TechniqueResult};
+use crate::results::{Family, LeftOut, Results, TechniqueResult};
 use std::collections::BTreeSet;
 
 /// Name of a family for people and for CSS.
@@ -32,7 +32,10 @@ pub(super) fn scores(results: &Results) -> String {
     let columns = column::all();
     let best: Vec<Option<f64>> = columns.iter().map(|column| best_of(results, column)).collect();
     let row = |t: &TechniqueResult| {
-        let cells: String = columns.iter().zip(&best).map(|(column, best)| cell(column, t, *best)).collect();
+        let cells: String = match &t.invalid {
+            Some(why) => across(&columns, &format!("invalid: {why}")),
+            None => columns.iter().zip(&best).map(|(column, best)| cell(column, t, *best)).collect(),
+        };
         format!("<tr>{}{cells}</tr>\n", row_head(t))
     };
     let bodies: String = results
@@ -40,17 +43,39 @@ pub(super) fn scores(results: &Results) -> String {
         .into_iter()
         .map(|(of, members)| {
             let rows: String = members.into_iter().map(row).collect();
-            let (name, across) = (family(of).0, columns.len());
+            let (name, count) = (family(of).0, columns.len());
             format!(
-                "<tbody><tr class=\"family\"><th scope=\"rowgroup\">{name}</th><td colspan=\"{across}\"></td></tr>\n{rows}</tbody>"
+                "<tbody><tr class=\"family\"><th scope=\"rowgroup\">{name}</th><td colspan=\"{count}\"></td></tr>\n{rows}</tbody>"
             )
         })
         .collect();
     format!(
         "<table class=\"scores sortable\"><caption class=\"unseen\">Scores, time and memory of every technique</caption>\n\
-         <thead>{}</thead>\n{bodies}\n<tfoot>{}</tfoot></table>",
+         <thead>{}</thead>\n{bodies}{}\n<tfoot>{}</tfoot></table>",
         head(&columns),
+        left_out(results, &columns),
         baseline(&columns, &results.truth.no_shadow)
+    )
+}
+
+/// A cell across all columns.
+fn across(columns: &[Column], text: &str) -> String {
+    format!("<td class=\"starts across\" colspan=\"{}\">{}</td>", columns.len(), escape(text))
+}
+
+/// Techniques that were refused, with the reasons; nothing if there are none.
+fn left_out(results: &Results, columns: &[Column]) -> String {
+    if results.left_out.is_empty() {
+        return String::new();
+    }
+    let row = |left_out: &LeftOut| {
+        let (spec, why) = (escape(&left_out.spec), across(columns, &left_out.reason));
+        format!("<tr><th scope=\"row\" data-value=\"{spec}\"><code>{spec}</code></th>{why}</tr>\n")
+    };
+    let rows: String = results.left_out.iter().map(row).collect();
+    format!(
+        "<tbody><tr class=\"family\"><th scope=\"rowgroup\">Left out</th><td colspan=\"{}\"></td></tr>\n{rows}</tbody>",
+        columns.len()
     )
 }
 
@@ -90,7 +115,7 @@ fn head(columns: &[Column]) -> String {
 
 /// A best value is worth a mark only if another is worse.
 fn best_of(results: &Results, column: &Column) -> Option<f64> {
-    let values = || results.techniques.iter().filter_map(column.value);
+    let values = || results.valid().filter_map(column.value);
     let (low, high) = (values().reduce(f64::min)?, values().reduce(f64::max)?);
     let best = if column.better == Better::Higher { high } else { low };
     (low < high).then_some(best)
@@ -141,7 +166,7 @@ fn baseline(columns: &[Column], score: &Score) -> String {
 
 /// Named parts of the picture, against the light-space ideal; nothing if there are none.
 pub(super) fn regions(results: &Results) -> String {
-    let names: BTreeSet<&String> = results.techniques.iter().flat_map(|t| t.regions.keys()).collect();
+    let names: BTreeSet<&String> = results.valid().flat_map(|t| t.regions.keys()).collect();
     if names.is_empty() {
         return String::new();
     }
@@ -153,8 +178,7 @@ pub(super) fn regions(results: &Results) -> String {
         "<th scope=\"col\" class=\"starts\">RMSE</th><th scope=\"col\">Leak</th><th scope=\"col\">Edges</th>"
             .repeat(names.len());
     let rows: String = results
-        .techniques
-        .iter()
+        .valid()
         .map(|t| {
             let cells: String = names.iter().map(|name| region_cells(t.regions.get(*name))).collect();
             format!("<tr>{}{cells}</tr>\n", row_head(t))
@@ -194,7 +218,7 @@ pub(super) fn classes(results: &Results) -> String {
         };
         t.classes.iter().enumerate().map(one).collect::<String>()
     };
-    let rows: String = results.techniques.iter().map(row).collect();
+    let rows: String = results.valid().map(row).collect();
     if rows.is_empty() {
         return String::new();
     }

@@ -33,10 +33,12 @@ pub(crate) fn fill(template: &str, parts: &[(&str, String)]) -> String {
     page + rest
 }
 
-/// A technique's title, with its specification where another has the same title.
+/// A technique's title, with its specification where another has the same title; says so if it is invalid.
 pub(super) fn label(results: &Results, technique: &TechniqueResult) -> String {
     let same = results.techniques.iter().filter(|t| t.title == technique.title).count();
-    if same > 1 { format!("{} ({})", technique.title, technique.spec) } else { technique.title.clone() }
+    let name =
+        if same > 1 { format!("{} ({})", technique.title, technique.spec) } else { technique.title.clone() };
+    if technique.invalid.is_some() { name + ", invalid" } else { name }
 }
 
 /// A share as a percentage: "98.42 %".

@@ -19,8 +19,12 @@ const SCORE: [&str; 13] = [
     "lit_pixels",
 ];
 
+/// Columns before the numbers, which invalid techniques do not have.
+const NAMES: usize = 4;
+
 pub(super) fn table(results: &Results) -> String {
-    let mut head: Vec<String> = ["spec", "name", "title", "family"].map(String::from).into();
+    let names: [&str; NAMES] = ["spec", "name", "title", "family"];
+    let mut head: Vec<String> = names.map(String::from).into();
     for truth in ["hard", "light_space", "screen_space"] {
         head.extend(SCORE.iter().map(|metric| format!("{truth}_{metric}")));
     }
@@ -28,6 +32,7 @@ pub(super) fn table(results: &Results) -> String {
     head.extend(cost.map(String::from));
     head.extend(["kept_bytes", "transient_bytes"].map(String::from));
     head.extend(["bytes_per_texel", "bytes_per_texel_with_mips", "lookups", "passes"].map(String::from));
+    head.push("invalid".into());
     let rows = results.techniques.iter().map(row);
     std::iter::once(head).chain(rows).map(|cells| line(&cells)).collect()
 }
@@ -51,6 +56,10 @@ fn row(technique: &TechniqueResult) -> Vec<String> {
         optional(work.map(|w| f64::from(w.lookups))),
         optional(work.map(|w| w.passes.len() as f64)),
     ]);
+    if technique.invalid.is_some() {
+        cells[NAMES..].iter_mut().for_each(String::clear);
+    }
+    cells.push(technique.invalid.clone().unwrap_or_default());
     cells
 }
 

@@ -3,7 +3,7 @@
 #![allow(dead_code, reason = "each test program uses a part of it")]
 #![allow(clippy::unwrap_used, reason = "helpers of tests fail like tests")]
 
-use antumbra::{Kernel, Options, ShadowMap, Size, Technique, View, Weights, technique::Bias};
+use antumbra::{Capacity, Kernel, Options, ShadowMap, Size, Technique, View, Weights, technique::Bias};
 use antumbra_lab::{
     compare,
     gpu::Gpu,
@@ -27,6 +27,8 @@ pub(crate) struct Shot {
     pub(crate) gpu: Gpu,
     pub(crate) stage: Stage,
     lighting: Lighting,
+    /// What its maps have memory for: what the scene needs, unless a test wants otherwise.
+    pub(crate) capacity: Capacity,
 }
 
 impl Shot {
@@ -37,7 +39,8 @@ impl Shot {
         let (geometry, camera, light) = (scene.flatten(), scene.main_camera(), scene.main_light());
         let stage = Stage::new(&gpu, &geometry, &camera, &light, resolution).unwrap();
         let lighting = Lighting::new(&gpu, &stage);
-        Self { geometry, camera, light, resolution, gpu, stage, lighting }
+        let capacity = stage.capacity();
+        Self { geometry, camera, light, resolution, gpu, stage, lighting, capacity }
     }
 
     pub(crate) fn rays(&self) -> CameraRays {
@@ -59,7 +62,7 @@ impl Shot {
         size: u32,
         bias: Bias,
     ) -> (Vec<ShadowMap>, View) {
-        let options = Options { bias, ..Options::from(Size::square(size)) };
+        let options = Options::from(Size::square(size)).bias(bias).capacity(self.capacity);
         let new = |t: &&dyn Technique| ShadowMap::new(&self.gpu.device, *t, options.clone()).unwrap();
         let mut maps: Vec<ShadowMap> = techniques.iter().map(new).collect();
         let all: Vec<&ShadowMap> = maps.iter().collect();

@@ -4,10 +4,8 @@ use crate::{
     bench::Bench,
     numbers::steps,
     page::{Cell, Page, Table, Unit},
-    table::with_room,
     verdict::{Verdict, at_most, more},
 };
-use antumbra_scene::procedural;
 use anyhow::Result;
 
 /// Scene, its name in the paper, milliseconds of standard and sub-pixel maps of 1024² and 2048².
@@ -30,10 +28,8 @@ pub(super) fn table_1(bench: &Bench<'_>) -> Result<Page> {
             continue;
         }
         let maps = [1024, 2048].map(|m| bench.map(m));
-        let triangles = procedural::by_name(scene).map_or(0, |entry| entry.triangles);
-        let dpm = with_room("dpm", triangles);
         let entrants: Vec<(u32, &str)> =
-            maps.iter().flat_map(|map| ["hard", "spsm", &dpm].map(|spec| (*map, spec))).collect();
+            maps.iter().flat_map(|map| ["hard", "spsm", "dpm"].map(|spec| (*map, spec))).collect();
         let rounds = if scene == "city" { 1 } else { bench.rounds(3) };
         let times = match bench.race(bench.shot(scene, [960, 540]), &entrants, rounds) {
             Ok(times) => times,

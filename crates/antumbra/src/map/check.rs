@@ -1,13 +1,13 @@
 //! What must hold before anything is created, so that wgpu has nothing to complain about.
 
 use super::{
-    Options,
-    lists::{ROW, Room},
-    ranked::RankedRoom,
+    Capacity, Options,
+    lists::{ListSize, ROW},
+    ranked::RankedSize,
     uniforms,
 };
 use crate::{
-    error::Unsupported,
+    error::{SettingError, Unsupported},
     light::Size,
     technique::{Caster, Map, Technique},
 };
@@ -40,14 +40,14 @@ pub(super) fn device(
     if !(1..=max).contains(&layers) {
         return Err(Unsupported::Layers { views: options.views, layers, max });
     }
-    let room = limits.max_uniform_buffer_binding_size;
-    let most =
-        room.saturating_sub(uniforms::bytes(technique, 0)) / uniforms::view_bytes(technique.widths().len());
+    let most_bytes = limits.max_uniform_buffer_binding_size;
+    let most = most_bytes.saturating_sub(uniforms::bytes(technique, 0))
+        / uniforms::view_bytes(technique.widths().len());
     if u64::from(options.views) > most {
         return Err(Unsupported::Feature {
             technique: technique.page().name.into(),
             what: format!(
-                "a uniform binding of {} bytes for {} views ({room} are possible)",
+                "a uniform binding of {} bytes for {} views ({most_bytes} are possible)",
                 uniforms::bytes(technique, options.views),
                 options.views
             ),
@@ -66,11 +66,11 @@ pub(super) fn caster(
     let name = technique.page().name.to_string();
     match (technique.caster(), depth, maps) {
         (Caster::Depth, ..) => Ok(()),
-        (Caster::Triangles(_) | Caster::Lists { .. } | Caster::Ranked { .. }, Some(_), _) => {
+        (Caster::Triangles(_) | Caster::Lists | Caster::Ranked { .. }, Some(_), _) => {
             Err(Unsupported::Triangles { technique: name })
         }
-        (Caster::Lists { .. } | Caster::Ranked { .. }, None, _) if technique.jitter().len() == 1 => Ok(()),
-        (Caster::Lists { .. } | Caster::Ranked { .. }, None, _) => Err(Unsupported::Feature {
+        (Caster::Lists | Caster::Ranked { .. }, None, _) if technique.jitter().len() == 1 => Ok(()),
+        (Caster::Lists | Caster::Ranked { .. }, None, _) => Err(Unsupported::Feature {
             technique: name,
             what: "a single caster pass".into(),
             instead: "describe no more in Technique::jitter".into(),
@@ -89,16 +89,35 @@ fn refused(technique: &dyn Technique, what: String, instead: String) -> Result<(
     Err(Unsupported::Feature { technique: technique.page().name.into(), what, instead })
 }
 
+/// Whether a capacity holds anything, and ids can tell all of it apart.
+fn capacity(capacity: Capacity) -> Result<(), Unsupported> {
+    let within = |name: &str, value: u32, most: u32| match (1..=most).contains(&value) {
+        true => Ok(()),
+        false => Err(Unsupported::Setting(SettingError::OutOfRange {
+            parameter: format!("Options::capacity.{name}"),
+            value: value.to_string(),
+            allowed: format!("1 to {most}"),
+        })),
+    };
+    within("triangles", capacity.triangles, Capacity::MAX_TRIANGLES)?;
+    within("triangles_per_texel", capacity.triangles_per_texel, u32::MAX)
+}
+
 /// Whether the lists of all triangles fit.
-pub(super) fn lists(device: &wgpu::Device, technique: &dyn Technique, room: Room) -> Result<(), Unsupported> {
+pub(super) fn lists(
+    device: &wgpu::Device,
+    technique: &dyn Technique,
+    extent: ListSize,
+) -> Result<(), Unsupported> {
+    capacity(extent.capacity)?;
     let limits = device.limits();
-    let layers = room.number_layers().max(3).saturating_mul(room.views);
+    let layers = extent.number_layers().max(3).saturating_mul(extent.views);
     let max = limits.max_texture_array_layers;
     if !(1..=max).contains(&layers) {
-        return Err(Unsupported::Layers { views: room.views, layers, max });
+        return Err(Unsupported::Layers { views: extent.views, layers, max });
     }
     let refused = |what, instead| refused(technique, what, instead);
-    let (bytes, max) = (room.count_bytes(), limits.max_storage_buffer_binding_size);
+    let (bytes, max) = (extent.count_bytes(), limits.max_storage_buffer_binding_size);
     if bytes > max {
         let what = format!("a storage binding of {bytes} bytes for the counts ({max} are possible)");
         return refused(what, format!("take at most {} texels", max / 4));
@@ -110,13 +129,13 @@ pub(super) fn lists(device: &wgpu::Device, technique: &dyn Technique, room: Room
             "take another technique".into(),
         );
     }
-    if room.rows() > max {
+    if extent.capacity.rows() > max {
         let what = format!(
             "corners of {} triangles in {} rows of {ROW} ({max} are possible)",
-            room.triangles,
-            room.rows()
+            extent.capacity.triangles,
+            extent.capacity.rows()
         );
-        return refused(what, format!("take at most {} triangles", max * ROW));
+        return refused(what, format!("give Options::capacity at most {} triangles", max * ROW));
     }
     Ok(())
 }
@@ -128,12 +147,13 @@ const RANKED_BUFFERS: u32 = 5;
 pub(super) fn ranked(
     device: &wgpu::Device,
     technique: &dyn Technique,
-    room: RankedRoom,
+    extent: RankedSize,
 ) -> Result<(), Unsupported> {
+    capacity(extent.capacity)?;
     let limits = device.limits();
     let max = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
-    if room.keeps == 0 || room.triangles == 0 {
-        let what = format!("{} triangles per texel, of {}", room.keeps, room.triangles);
+    if extent.keeps == 0 {
+        let what = "0 triangles per texel".into();
         return refused(technique, what, "keep at least one".into());
     }
     let (found, needed) = (limits.max_storage_buffers_per_shader_stage, RANKED_BUFFERS);
@@ -145,16 +165,20 @@ pub(super) fn ranked(
         let what = format!("a storage binding of {bytes} bytes for {of} ({max} are possible)");
         refused(technique, what, instead)
     };
-    let (keys, corners) = (room.key_bytes(), room.corner_bytes());
+    let (keys, corners) = (extent.key_bytes(), extent.corner_bytes());
     if keys > max {
-        let texels = max / (4 * u64::from(room.views) * u64::from(room.keeps));
-        let keeps = max / (keys / u64::from(room.keeps));
+        let texels = max / (4 * u64::from(extent.views) * u64::from(extent.keeps));
+        let keeps = max / (keys / u64::from(extent.keeps));
         let fewer = if keeps > 0 { format!("{keeps} triangles per texel, or ") } else { String::new() };
         return refused(keys, "the triangles of texels", format!("take at most {fewer}{texels} texels"));
     }
     if corners > max {
-        let most = max / (corners / u64::from(room.triangles));
-        return refused(corners, "corners of triangles", format!("take at most {most} triangles"));
+        let most = max / (corners / u64::from(extent.capacity.triangles));
+        return refused(
+            corners,
+            "corners of triangles",
+            format!("give Options::capacity at most {most} triangles"),
+        );
     }
     Ok(())
 }

@@ -1,10 +1,10 @@
 //! Lists of the triangles that touch each texel, for [`Caster::Lists`]: drawn once to count them, given
-//! room, drawn again to fill it.
+//! entries, drawn again to fill them.
 //!
 //! [`Caster::Lists`]: crate::technique::Caster::Lists
 
 use super::{
-    Probe, draw,
+    Capacity, Probe, draw,
     memory::{Lifetime, MemoryItem},
     numbered::{self, ATOMIC, Numbered, UNIFORM},
     pipelines::Pipelines,
@@ -28,21 +28,15 @@ const WORKGROUP: u32 = 64;
 /// Bytes of `ListTotals`.
 const TOTALS: u64 = 8;
 
-/// What a map has room for.
+/// How large a map is.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Room {
+pub(super) struct ListSize {
     pub(super) size: Size,
     pub(super) views: u32,
-    pub(super) per_texel: u32,
-    pub(super) triangles: u32,
+    pub(super) capacity: Capacity,
 }
 
-impl Room {
-    /// Rows of the textures of corners.
-    pub(super) fn rows(&self) -> u32 {
-        self.triangles.div_ceil(ROW)
-    }
-
+impl ListSize {
     /// Bytes of the count of every texel.
     pub(super) fn count_bytes(&self) -> u64 {
         4 * u64::from(self.size.width) * u64::from(self.size.height)
@@ -50,7 +44,8 @@ impl Room {
 
     /// Entries of a view.
     fn entries(&self) -> u32 {
-        (self.count_bytes() / 4 * u64::from(self.per_texel)).min(u64::from(u32::MAX)) as u32
+        (self.count_bytes() / 4 * u64::from(self.capacity.triangles_per_texel)).min(u64::from(u32::MAX))
+            as u32
     }
 
     /// Layers of a view's numbers.
@@ -74,7 +69,7 @@ struct ListPass {
 pub(super) struct Lists {
     numbered: Numbered,
     scan: ComputePipeline,
-    room: Room,
+    extent: ListSize,
     passes: Buffer,
     counts: Buffer,
     marks: Buffer,
@@ -91,32 +86,32 @@ impl Lists {
     pub(super) fn new(
         device: &wgpu::Device,
         technique: &dyn Technique,
-        room: Room,
+        extent: ListSize,
         pipelines: &Pipelines,
     ) -> Self {
-        let draws = (room.size, room.views);
+        let draws = (extent.size, extent.views);
         let numbered =
             Numbered::new(device, technique, draws, CompareFunction::Always, draw_layout(device), pipelines);
         let pass = |slot: u32| {
-            let (entries, triangles) = (room.entries(), room.triangles);
+            let (entries, triangles) = (extent.entries(), extent.capacity.triangles);
             ListPass { view: slot / 2, fills: slot % 2, entries, triangles }
         };
         let passes =
-            numbered.passes(device, "list passes", &(0..2 * room.views).map(pass).collect::<Vec<_>>());
+            numbered.passes(device, "list passes", &(0..2 * extent.views).map(pass).collect::<Vec<_>>());
         let storage = |label, bytes| {
             let usage = BufferUsages::STORAGE | BufferUsages::COPY_DST | BufferUsages::COPY_SRC;
             numbered::buffer(device, label, bytes, usage)
         };
-        let counts = storage("list counts", room.count_bytes());
-        let marks = storage("list marks", 4 * u64::from(room.triangles.div_ceil(32)));
-        let totals = storage("list totals", TOTALS * u64::from(room.views));
-        let Size { width, height } = room.size;
-        let layers = [2, room.number_layers(), 3];
-        let rows = room.entries().div_ceil(ROW).min(ROW);
+        let counts = storage("list counts", extent.count_bytes());
+        let marks = storage("list marks", 4 * u64::from(extent.capacity.triangles.div_ceil(32)));
+        let totals = storage("list totals", TOTALS * u64::from(extent.views));
+        let Size { width, height } = extent.size;
+        let layers = [2, extent.number_layers(), 3];
+        let rows = extent.entries().div_ceil(ROW).min(ROW);
         let texture = |i: usize, label, width, height, format| {
             let texture = device.create_texture(&wgpu::TextureDescriptor {
                 label: Some(label),
-                size: wgpu::Extent3d { width, height, depth_or_array_layers: layers[i] * room.views },
+                size: wgpu::Extent3d { width, height, depth_or_array_layers: layers[i] * extent.views },
                 mip_level_count: 1,
                 sample_count: 1,
                 dimension: wgpu::TextureDimension::D2,
@@ -124,13 +119,13 @@ impl Lists {
                 usage: wgpu::TextureUsages::STORAGE_BINDING | wgpu::TextureUsages::TEXTURE_BINDING,
                 view_formats: &[],
             });
-            let view = part(&texture, 0, layers[i] * room.views);
+            let view = part(&texture, 0, layers[i] * extent.views);
             (texture, view)
         };
         let textures = [
             texture(0, "list ranges", width, height, TextureFormat::R32Uint),
             texture(1, "list numbers", ROW, rows, TextureFormat::R32Uint),
-            texture(2, "list corners", ROW, room.rows(), TextureFormat::Rgba32Float),
+            texture(2, "list corners", ROW, extent.capacity.rows(), TextureFormat::Rgba32Float),
         ];
         let scan_layout = scan_layout(device);
         let pass =
@@ -165,11 +160,11 @@ impl Lists {
             )
         };
         Self {
-            draws: (0..room.views).map(|view| [draw(view, 0), draw(view, 1)]).collect(),
-            scans: (0..room.views).map(scan).collect(),
+            draws: (0..extent.views).map(|view| [draw(view, 0), draw(view, 1)]).collect(),
+            scans: (0..extent.views).map(scan).collect(),
             scan: compile_scan(device, &scan_layout),
             numbered,
-            room,
+            extent,
             passes,
             counts,
             marks,
@@ -183,7 +178,7 @@ impl Lists {
         &self.numbered
     }
 
-    /// Counts, gives room, fills. `depth` is a target that the passes need and leave alone.
+    /// Counts, gives entries, fills. `depth` is a target that the passes need and leave alone.
     pub(super) fn encode(
         &self,
         encoder: &mut wgpu::CommandEncoder,
@@ -201,7 +196,7 @@ impl Lists {
                 let mut pass = draw::compute_pass(encoder, "scan", timestamps);
                 pass.set_pipeline(&self.scan);
                 pass.set_bind_group(0, &self.scans[index], &[]);
-                let texels = (self.room.count_bytes() / 4) as u32;
+                let texels = (self.extent.count_bytes() / 4) as u32;
                 pass.dispatch_workgroups(texels.div_ceil(SEGMENT * WORKGROUP), 1, 1);
             }
             self.numbered.draw(encoder, (index, view), &self.draws[index][fills], depth, probe, draw);
@@ -241,10 +236,10 @@ impl Lists {
     /// One sentence for `explain`.
     pub(super) fn explain(&self) -> String {
         format!(
-            "lists of {} triangles, {} per texel, of {} different ones in each view; list_totals() and triangles_drawn() tell whether that was enough",
-            self.room.entries(),
-            self.room.per_texel,
-            self.room.triangles
+            "lists of {} triangles, {} per texel, of {} different ones in each view; list_totals() and triangles_drawn() tell whether that was enough, Options::capacity sets it",
+            self.extent.entries(),
+            self.extent.capacity.triangles_per_texel,
+            self.extent.capacity.triangles
         )
     }
 }

@@ -5,7 +5,7 @@
 //! [`Caster::Ranked`]: crate::technique::Caster::Ranked
 
 use super::{
-    Probe,
+    Capacity, Probe,
     memory::{Lifetime, MemoryItem},
     numbered::{self, ATOMIC, Numbered, UNIFORM},
     pipelines::Pipelines,
@@ -22,16 +22,16 @@ use wgpu::{
 /// Bytes of a triangle's corners.
 const CORNERS: u64 = 48;
 
-/// What a map has room for.
+/// How large a map is.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct RankedRoom {
+pub(super) struct RankedSize {
     pub(super) size: Size,
     pub(super) views: u32,
     pub(super) keeps: u32,
-    pub(super) triangles: u32,
+    pub(super) capacity: Capacity,
 }
 
-impl RankedRoom {
+impl RankedSize {
     /// Bytes of the keys of a view.
     fn view_bytes(&self) -> u64 {
         4 * u64::from(self.size.width) * u64::from(self.size.height) * u64::from(self.keeps)
@@ -44,7 +44,7 @@ impl RankedRoom {
 
     /// Bytes of all corners.
     pub(super) fn corner_bytes(&self) -> u64 {
-        CORNERS * u64::from(self.triangles) * u64::from(self.views)
+        CORNERS * u64::from(self.capacity.triangles) * u64::from(self.views)
     }
 }
 
@@ -62,7 +62,7 @@ struct RankedPass {
 #[derive(Debug)]
 pub(super) struct RankedTriangles {
     numbered: Numbered,
-    room: RankedRoom,
+    extent: RankedSize,
     passes: Buffer,
     keys: Buffer,
     /// Of triangles whose corners are kept already, where fragments have to keep them.
@@ -76,23 +76,23 @@ impl RankedTriangles {
     pub(super) fn new(
         device: &wgpu::Device,
         technique: &dyn Technique,
-        room: RankedRoom,
+        extent: RankedSize,
         pipelines: &Pipelines,
     ) -> Self {
-        let RankedRoom { size, views, keeps, triangles } = room;
+        let RankedSize { size, views, keeps, capacity } = extent;
         let numbered =
             Numbered::new(device, technique, (size, views), CompareFunction::Less, layout(device), pipelines);
-        let bits = Ranked::number_bits(triangles);
+        let (triangles, bits) = (capacity.triangles, capacity.id_bits());
         let all: Vec<_> = (0..views).map(|view| RankedPass { view, keeps, triangles, bits }).collect();
         let passes = numbered.passes(device, "ranked passes", &all);
         let storage = |label, bytes| {
             let usage = BufferUsages::STORAGE | BufferUsages::COPY_DST | BufferUsages::COPY_SRC;
             numbered::buffer(device, label, bytes, usage)
         };
-        let keys = storage("ranked triangles", room.key_bytes());
+        let keys = storage("ranked triangles", extent.key_bytes());
         let marks = (!Capabilities::of(device).stores_from_vertices())
             .then(|| storage("ranked marks", 4 * u64::from(triangles.div_ceil(32))));
-        let corners = storage("ranked corners", room.corner_bytes());
+        let corners = storage("ranked corners", extent.corner_bytes());
         let group = |view: u32| {
             let own = [
                 numbered.view(view),
@@ -104,7 +104,7 @@ impl RankedTriangles {
             numbered::bind(device, numbered.layout(), own.into_iter().chain(marks))
         };
         let groups = (0..views).map(group).collect();
-        Self { numbered, room, passes, keys, marks, corners, groups }
+        Self { numbered, extent, passes, keys, marks, corners, groups }
     }
 
     /// Pipelines and views.
@@ -121,7 +121,11 @@ impl RankedTriangles {
         probe: &mut dyn Probe,
         draw: &mut impl FnMut(&View, &mut RenderPass<'_>),
     ) {
-        encoder.clear_buffer(&self.keys, index as u64 * self.room.view_bytes(), Some(self.room.view_bytes()));
+        encoder.clear_buffer(
+            &self.keys,
+            index as u64 * self.extent.view_bytes(),
+            Some(self.extent.view_bytes()),
+        );
         if let Some(marks) = &self.marks {
             encoder.clear_buffer(marks, 0, None);
         }
@@ -130,9 +134,9 @@ impl RankedTriangles {
 
     /// One sentence for `explain`.
     pub(super) fn explain(&self) -> String {
-        let RankedRoom { keeps, triangles, .. } = self.room;
+        let RankedSize { keeps, capacity: Capacity { triangles, .. }, .. } = self.extent;
         format!(
-            "{keeps} triangles per texel, of {triangles} different ones in each view; triangles_drawn() tells whether that was enough"
+            "{keeps} triangles per texel, of {triangles} different ones in each view; triangles_drawn() tells whether that was enough, Options::capacity sets it"
         )
     }
 
@@ -145,7 +149,7 @@ impl RankedTriangles {
     }
 
     pub(super) fn memory(&self) -> Vec<MemoryItem> {
-        let texels = MemoryItem::texels("ranked triangles", &self.keys, self.room.size);
+        let texels = MemoryItem::texels("ranked triangles", &self.keys, self.extent.size);
         let buffers = [
             ("ranked corners", &self.corners),
             ("ranked views", self.numbered.views()),

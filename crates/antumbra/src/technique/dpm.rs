@@ -17,16 +17,14 @@ use crate::{
     parameter::{Field, Parameter},
 };
 
-/// Deep primitive map. 4 bytes per texel and triangle kept, 4 for the depth of its centre, 48 for every
-/// triangle of the scene; 4 lookups for every triangle kept until one shadows, and up to 10 more where
+/// Deep primitive map. 4 bytes per texel and triangle kept, 4 for the depth of its centre, 48 for each
+/// triangle of the map's [`Capacity`](crate::Capacity); 4 lookups for every triangle kept until one shadows, and up to 10 more where
 /// some are missing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Dpm {
     /// Triangles per texel.
     pub keeps: u32,
-    /// Triangles of one view that there is room for, half as many under a spot, which may cut them.
-    pub triangles: u32,
     /// Positions along one side of a pixel at which shadows are asked, 1 to 4: those in its corners, and
     /// where these differ all.
     pub samples: u32,
@@ -34,7 +32,7 @@ pub struct Dpm {
 
 impl Default for Dpm {
     fn default() -> Self {
-        Self { keeps: 4, triangles: 1 << 19, samples: 1 }
+        Self { keeps: 4, samples: 1 }
     }
 }
 
@@ -56,12 +54,6 @@ impl Technique for Dpm {
                 "triangles per texel of those that touch it: far sides, then near sides, from the light on",
             ),
             Parameter::new(
-                "triangles",
-                "",
-                Field::Count(&mut self.triangles, 1..=1 << 24),
-                "triangles of the casters that there is room for",
-            ),
-            Parameter::new(
                 "samples",
                 "",
                 Field::Count(&mut self.samples, 1..=4),
@@ -73,7 +65,7 @@ impl Technique for Dpm {
         Ok(Vec::new())
     }
     fn caster(&self) -> Caster {
-        Caster::Ranked { keeps: self.keeps, triangles: self.triangles }
+        Caster::Ranked { keeps: self.keeps }
     }
     fn bindings(&self) -> Vec<Binding> {
         vec![Binding::Depth, Binding::Ranked(Ranked::Keys), Binding::Ranked(Ranked::Corners)]
@@ -84,8 +76,6 @@ impl Technique for Dpm {
     fn constants(&self) -> Vec<Constant> {
         vec![
             Constant::Count("dpm_keeps", self.keeps),
-            Constant::Count("dpm_triangles", self.triangles),
-            Constant::Count("dpm_bits", Ranked::number_bits(self.triangles)),
             Constant::Count("dpm_samples", self.samples),
         ]
     }

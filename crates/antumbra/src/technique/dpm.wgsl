@@ -2,10 +2,6 @@
 
 /// Triangles per texel.
 const dpm_keeps: u32 = 4;
-/// Triangles of a view that there is room for.
-const dpm_triangles: u32 = 524288;
-/// Bits of their numbers.
-const dpm_bits: u32 = 19;
 /// Positions along one side of a pixel at which shadows are asked.
 const dpm_samples: u32 = 1;
 /// Receivers that may be behind a triangle which was not kept are lit where this share of the light around
@@ -36,7 +32,8 @@ fn dpm_class_at(casters: texture_depth_2d_array, point: vec2f, view: u32, depth:
     let size = textureDimensions(casters);
     let texel = min(vec2u(max(point, vec2f(0.0))), size - 1u);
     let start = ((view * size.y + texel.y) * size.x + texel.x) * dpm_keeps;
-    let step = key_step(raster_linear(clamp(depth, 0.0, 1.0), shadow_near_over_far(view)), dpm_bits);
+    let bits = shadow_key_bits();
+    let step = key_step(raster_linear(clamp(depth, 0.0, 1.0), shadow_near_over_far(view)), bits);
     let ray = vec3f(point, 0.0);
     var key = 0u;
     for (var i = start; i < start + dpm_keeps; i += 1u) {
@@ -44,20 +41,23 @@ fn dpm_class_at(casters: texture_depth_2d_array, point: vec2f, view: u32, depth:
         if key == 0u {
             return dpm_lit;
         }
-        if key_deeper(key, step, dpm_bits) {
+        if key_deeper(key, step, bits) {
             // Behind a near side are only near sides that lie deeper.
             if key_is_near(key) {
                 return dpm_lit;
             }
             continue;
         }
-        let at = 3u * (view * dpm_triangles + key_number(key, dpm_bits));
-        if ray_depth(shadow_corner(at) - ray, shadow_corner(at + 1u) - ray, shadow_corner(at + 2u) - ray) < depth {
+        let n = key_number(key, bits);
+        let a = shadow_corner(view, n, 0u) - ray;
+        let b = shadow_corner(view, n, 1u) - ray;
+        let c = shadow_corner(view, n, 2u) - ray;
+        if ray_depth(a, b, c) < depth {
             return dpm_shadowed;
         }
     }
     let before = depth - dot(abs(gain), vec2f(1.0));
-    let complete = (key_is_near(key) || key_deeper(key, step, dpm_bits)) && !dpm_occluded(casters, vec2i(texel), point, view, before, gain);
+    let complete = (key_is_near(key) || key_deeper(key, step, bits)) && !dpm_occluded(casters, vec2i(texel), point, view, before, gain);
     return select(dpm_uncertain, dpm_lit, complete);
 }
 

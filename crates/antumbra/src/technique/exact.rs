@@ -3,37 +3,22 @@
 //!
 //! The answer is that of a ray through the same triangles, up to the rounding of 32-bit coordinates;
 //! the size of the map decides how fast it comes, not what it is. Casters are drawn twice, to count and
-//! to fill the lists. Memory is allocated once, for a number of triangles that has to be known; what
-//! does not fit is left out, and light leaks there
-//! ([`ShadowMap::list_totals`](crate::ShadowMap::list_totals) tells). Holes of cut-out casters have the
+//! to fill the lists. Memory is allocated once, for the map's [`Capacity`]; triangles beyond that are left
+//! out, and light leaks there ([`ShadowMap::list_totals`](crate::ShadowMap::list_totals) tells). Holes of cut-out casters have the
 //! resolution of the map.
 //!
 //! What Lecocq et al. 2014, "Sub-Pixel Shadow Mapping", §3.1, call intractable.
 
 use super::{BiasTerms, Binding, Caster, DepthSpace, Family, List, Map, Page, Technique};
 use crate::{
-    capabilities::Capabilities,
-    error::Unsupported,
-    parameter::{Field, Parameter},
+    capabilities::Capabilities, error::Unsupported, map::Capacity, parameter::Parameter,
 };
 
-/// Lists of all triangles. 16 bytes per texel, 4 for each triangle in it on average that there is room
-/// for, 48 for every triangle of the scene; 2 lookups, and 4 for every triangle of a list until one
-/// shadows.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// Lists of all triangles. 16 bytes per texel, 4 for each triangle per texel of the map's [`Capacity`], 48
+/// for each of its triangles; 2 lookups, and 4 for every triangle of a list until one shadows.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Exact {
-    /// Triangles per texel that there is room for, on average over the map.
-    pub per_texel: u32,
-    /// Triangles of one view that there is room for, half as many under a spot, which may cut them.
-    pub triangles: u32,
-}
-
-impl Default for Exact {
-    fn default() -> Self {
-        Self { per_texel: 6, triangles: 1 << 19 }
-    }
-}
+pub struct Exact;
 
 impl Technique for Exact {
     fn page(&self) -> Page {
@@ -45,26 +30,13 @@ impl Technique for Exact {
         }
     }
     fn parameters(&mut self) -> Vec<Parameter<'_>> {
-        vec![
-            Parameter::new(
-                "per_texel",
-                "triangles",
-                Field::Count(&mut self.per_texel, 1..=64),
-                "triangles per texel that there is room for, on average over the map",
-            ),
-            Parameter::new(
-                "triangles",
-                "",
-                Field::Count(&mut self.triangles, 1..=1 << 24),
-                "triangles of the casters that there is room for",
-            ),
-        ]
+        Vec::new()
     }
     fn maps(&self, _: &Capabilities) -> Result<Vec<Map>, Unsupported> {
         Ok(Vec::new())
     }
     fn caster(&self) -> Caster {
-        Caster::Lists { per_texel: self.per_texel, triangles: self.triangles }
+        Caster::Lists
     }
     fn bindings(&self) -> Vec<Binding> {
         [List::Ranges, List::Numbers, List::Corners].map(Binding::List).to_vec()
@@ -85,9 +57,9 @@ impl Technique for Exact {
     fn reach_texels(&self) -> f32 {
         0.5
     }
-    /// Of a list as long as there is room for on average.
+    /// Of a list that fills the default capacity.
     fn lookups(&self) -> u32 {
-        2 + 4 * self.per_texel
+        2 + 4 * Capacity::default().triangles_per_texel
     }
     fn boxed(&self) -> Box<dyn Technique> {
         Box::new(*self)

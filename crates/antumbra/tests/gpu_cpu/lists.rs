@@ -2,7 +2,7 @@
 
 use super::{INPUTS, Row, geometry::overlaps, row, rows, run};
 use crate::common::{Random, caster_mesh, compute, view};
-use antumbra::{Exact, Lifetime, Options, ShadowMap, Size, Technique, View, technique::exact};
+use antumbra::{Capacity, Exact, Lifetime, Options, ShadowMap, Size, Technique, View, technique::exact};
 use antumbra_testing::Gpu;
 use glam::{DVec2, Mat4, Vec2, Vec3};
 use std::collections::BTreeSet;
@@ -12,6 +12,8 @@ pub(super) const TEXELS: usize = 48 * 32;
 /// Triangles of two meshes, the second drawn in two parts.
 const MESHES: [u32; 2] = [90, 150];
 pub(super) const TRIANGLES: u32 = MESHES[0] + MESHES[1];
+/// Enough for all of them.
+pub(super) const ALL: Capacity = Capacity { triangles: TRIANGLES, triangles_per_texel: 40 };
 /// Most entries of a texel that are read.
 const MOST: usize = 96;
 
@@ -34,8 +36,14 @@ pub(super) fn views() -> [View; 2] {
     [plain, View { clip_from_world: Mat4::from_scale(Vec3::new(-1.0, 1.0, 1.0)), ..plain }]
 }
 
-pub(super) fn drawn(gpu: &Gpu, technique: &dyn Technique, triangles: &[[Vec3; 3]]) -> ShadowMap {
-    let mut shadows = ShadowMap::new(&gpu.device, technique, Options::from(MAP).views(2)).unwrap();
+pub(super) fn drawn(
+    gpu: &Gpu,
+    technique: &dyn Technique,
+    capacity: Capacity,
+    triangles: &[[Vec3; 3]],
+) -> ShadowMap {
+    let options = Options::from(MAP).views(2).capacity(capacity);
+    let mut shadows = ShadowMap::new(&gpu.device, technique, options).unwrap();
     shadows.prepare(&gpu.queue, &views()).unwrap();
     let (first, second) = triangles.as_flattened().split_at(3 * MESHES[0] as usize);
     let meshes = [first, second].map(|corners| caster_mesh(gpu, corners));
@@ -137,8 +145,7 @@ fn totals(gpu: &Gpu, shadows: &ShadowMap) -> Vec<u32> {
 /// lists lie behind one another without gaps; numbers lead to the triangles' corners.
 pub(crate) fn lists_hold_all_triangles(gpu: &Gpu) {
     let triangles = soup(&mut Random::new(31));
-    let technique = Exact { per_texel: 40, triangles: TRIANGLES };
-    let shadows = drawn(gpu, &technique, &triangles);
+    let shadows = drawn(gpu, &Exact, ALL, &triangles);
     for (index, view) in (0..).zip(&views()) {
         let placed = on_map(view, &triangles);
         let Found { mut ranges, numbers, corners } = found(gpu, &shadows, index);
@@ -174,34 +181,34 @@ pub(crate) fn lists_hold_all_triangles(gpu: &Gpu) {
     }
 }
 
-/// What there is no room for is left out and told; nothing else is written.
-pub(crate) fn lists_without_room_are_cut(gpu: &Gpu) {
+/// What exceeds the capacity is left out and told; nothing else is written.
+pub(crate) fn lists_beyond_the_capacity_are_cut(gpu: &Gpu) {
     let triangles = soup(&mut Random::new(32));
-    let whole = drawn(gpu, &Exact { per_texel: 40, triangles: TRIANGLES }, &triangles);
+    let whole = drawn(gpu, &Exact, ALL, &triangles);
     let needed = totals(gpu, &whole);
-    let cut = drawn(gpu, &Exact { per_texel: 2, triangles: TRIANGLES }, &triangles);
+    let cut = drawn(gpu, &Exact, Capacity { triangles_per_texel: 2, ..ALL }, &triangles);
     assert_eq!(totals(gpu, &cut), needed);
-    let room = 2 * TEXELS as u32;
-    assert!(needed[0] > 2 * room, "{needed:?}");
+    let most = 2 * TEXELS as u32;
+    assert!(needed[0] > 2 * most, "{needed:?}");
     for view in [0, 1] {
         let [full, few] = [&whole, &cut].map(|shadows| found(gpu, shadows, view));
-        assert!(few.ranges.iter().all(|[start, end]| start <= end && *end <= room));
+        assert!(few.ranges.iter().all(|[start, end]| start <= end && *end <= most));
         let held: usize = few.numbers.iter().map(Vec::len).sum();
-        assert_eq!(held as u32, room);
+        assert_eq!(held as u32, most);
         for (few, full) in few.numbers.iter().zip(&full.numbers) {
             let full: BTreeSet<u32> = full.iter().copied().collect();
             assert!(few.iter().all(|n| full.contains(n)), "{few:?} of {full:?}");
         }
     }
-    let fewer = drawn(gpu, &Exact { per_texel: 40, triangles: 50 }, &triangles);
+    let fewer = drawn(gpu, &Exact, Capacity { triangles: 50, ..ALL }, &triangles);
     assert!(found(gpu, &fewer, 0).numbers.concat().iter().all(|n| *n < 50));
     assert!(totals(gpu, &fewer)[0] < needed[0]);
     assert_eq!(fewer.triangles_drawn(), TRIANGLES);
 }
 
 pub(crate) fn lists_tell_their_memory(gpu: &Gpu) {
-    let technique = Exact { per_texel: 6, triangles: 3000 };
-    let shadows = ShadowMap::new(&gpu.device, &technique, Options::from(MAP).views(2)).unwrap();
+    let options = Options::from(MAP).views(2).capacity(Capacity { triangles: 3000, ..Capacity::default() });
+    let shadows = ShadowMap::new(&gpu.device, &Exact, options).unwrap();
     let memory = shadows.memory();
     let bytes = |name: &str| memory.items.iter().find(|i| i.name == name).map_or(0, |i| i.bytes);
     let texels = TEXELS as u64;
@@ -221,7 +228,7 @@ fn around(r: &mut Random) -> Row {
 
 pub(crate) fn exact_intersects(gpu: &Gpu) {
     let rows = rows(33, around);
-    let shadows = ShadowMap::new(&gpu.device, &Exact::default(), MAP).unwrap();
+    let shadows = ShadowMap::new(&gpu.device, &Exact, MAP).unwrap();
     let found = run::<1>(gpu, &shadows, "put(0u, ray_depth(take3(0u), take3(3u), take3(6u)));", &rows);
     let depth = |r: &[f64; INPUTS], at: [f64; 2]| {
         let corners = [0, 1, 2].map(|k| [r[3 * k], r[3 * k + 1], r[3 * k + 2]]);

@@ -184,10 +184,13 @@ fn main() {
     trials.add("splines weigh centres", geometry::splines_weigh_centres);
     trials.add("every touched texel is drawn", geometry::every_touched_texel_is_drawn);
     trials.add("lists hold all triangles", lists::lists_hold_all_triangles);
-    trials.add("lists without room are cut", lists::lists_without_room_are_cut);
+    trials.add("lists beyond the capacity are cut", lists::lists_beyond_the_capacity_are_cut);
     trials.add("lists tell their memory", lists::lists_tell_their_memory);
     trials.add("the first triangles are kept", ranked::the_first_are_kept);
-    trials.add("triangles without room are left out", ranked::triangles_without_room_are_left_out);
+    trials.add(
+        "triangles beyond the capacity are left out",
+        ranked::triangles_beyond_the_capacity_are_left_out,
+    );
     trials.add("keys keep what they are of", ranked::keys_keep_what_they_are_of);
     trials.add("mirrored objects show their other side", ranked::mirrored_objects_show_their_other_side);
     trials.add("centres have their depth", ranked::centres_have_their_depth);

@@ -1,11 +1,11 @@
 //! The first triangles of texels: which ones are kept, in which order, and where their corners are.
 
 use super::{
-    lists::{MAP, TEXELS, TRIANGLES, drawn, on_map, overlapping, soup, views},
+    lists::{ALL, MAP, TEXELS, TRIANGLES, drawn, on_map, overlapping, soup, views},
     row, rows, run,
 };
 use crate::common::{Random, caster_mesh, compute};
-use antumbra::{Dpm, Fit, Light, Options, ShadowMap, Size, technique::Ranked};
+use antumbra::{Capacity, Dpm, Fit, Light, Options, ShadowMap, Size};
 use antumbra_testing::Gpu;
 use glam::{DVec2, Mat4, Vec3};
 use std::collections::BTreeSet;
@@ -31,7 +31,7 @@ fn found(
             if id.x >= {TEXELS}u {{
                 let n = id.x - {TEXELS}u;
                 for (var k = 0u; k < 9u; k += 1u) {{
-                    results[me + k] = shadow_corner(3u * ({view}u * dpm_triangles + n) + k / 3u)[k % 3u];
+                    results[me + k] = shadow_corner({view}u, n, k / 3u)[k % 3u];
                 }}
                 return;
             }}
@@ -39,8 +39,8 @@ fn found(
                 let key = shadow_key(({view}u * {TEXELS}u + id.x) * {keeps}u + i);
                 let at = me + 3u * i;
                 results[at] = select(select(0.0, 1.0, key_is_near(key)), -1.0, key == 0u);
-                results[at + 1u] = f32((~key & ~key_near) >> dpm_bits);
-                results[at + 2u] = f32(key_number(key, dpm_bits));
+                results[at + 1u] = f32((~key & ~key_near) >> shadow_key_bits());
+                results[at + 2u] = f32(key_number(key, shadow_key_bits()));
             }}
         }}
         fn keep(p: vec3f) -> f32 {{ return shadow_visibility(p, p, p, p) + unused[0]; }}"
@@ -64,7 +64,7 @@ fn key(triangle: &[Vec3; 3], number: u32, texel: usize) -> Key {
     let slope = -normal.truncate() / normal.z;
     let plane = a.z + slope.dot(centre - a.truncate()) - 0.5 * (slope.x.abs() + slope.y.abs());
     let least = plane.clamp(a.z.min(b.z).min(c.z), a.z.max(b.z).max(c.z));
-    let steps = (1u32 << (31 - Ranked::number_bits(TRIANGLES))) - 2;
+    let steps = (1u32 << (31 - ALL.id_bits())) - 2;
     (normal.z < 0.0, (least * f64::from(steps)) as u32, number)
 }
 
@@ -81,8 +81,8 @@ pub(crate) fn the_first_are_kept(gpu: &Gpu) {
 
 fn keeps_the_first(gpu: &Gpu, keeps: usize) {
     let triangles = soup(&mut Random::new(35));
-    let technique = Dpm { keeps: keeps as u32, triangles: TRIANGLES, samples: 1 };
-    let shadows = drawn(gpu, &technique, &triangles);
+    let technique = Dpm { keeps: keeps as u32, samples: 1 };
+    let shadows = drawn(gpu, &technique, ALL, &triangles);
     assert_eq!(shadows.triangles_drawn(), TRIANGLES);
     for (index, view) in (0..).zip(&views()) {
         let placed = on_map(view, &triangles);
@@ -126,10 +126,11 @@ fn keeps_the_first(gpu: &Gpu, keeps: usize) {
     }
 }
 
-/// Triangles beyond the room are left out and told.
-pub(crate) fn triangles_without_room_are_left_out(gpu: &Gpu) {
+/// Triangles beyond the capacity are left out and told.
+pub(crate) fn triangles_beyond_the_capacity_are_left_out(gpu: &Gpu) {
     let triangles = soup(&mut Random::new(36));
-    let shadows = drawn(gpu, &Dpm { keeps: 6, triangles: 50, samples: 1 }, &triangles);
+    let few = Capacity { triangles: 50, ..ALL };
+    let shadows = drawn(gpu, &Dpm { keeps: 6, samples: 1 }, few, &triangles);
     assert_eq!(shadows.triangles_drawn(), TRIANGLES);
     let held: BTreeSet<u32> = found(gpu, &shadows, 6, 0, 50).0.concat().iter().map(|k| k.2).collect();
     assert!(held.len() > 20 && held.iter().all(|n| *n < 50), "{held:?}");
@@ -226,8 +227,9 @@ pub(crate) fn keys_keep_what_they_are_of(gpu: &Gpu) {
 pub(crate) fn mirrored_objects_show_their_other_side(gpu: &Gpu) {
     let corners = [Vec3::new(-0.8, -0.7, 0.4), Vec3::new(0.9, -0.6, 0.5), Vec3::new(0.1, 0.8, 0.6)];
     let seen = |scale: f32| {
-        let technique = Dpm { keeps: 1, triangles: 1, samples: 1 };
-        let mut shadows = ShadowMap::new(&gpu.device, &technique, Options::from(MAP)).unwrap();
+        let technique = Dpm { keeps: 1, samples: 1 };
+        let options = Options::from(MAP).capacity(Capacity { triangles: 1, ..ALL });
+        let mut shadows = ShadowMap::new(&gpu.device, &technique, options).unwrap();
         shadows.prepare(&gpu.queue, &views()[..1]).unwrap();
         let mesh = caster_mesh(gpu, &corners.map(|p| p * Vec3::new(scale, 1.0, 1.0)));
         mesh.place(&gpu.queue, Mat4::from_scale(Vec3::new(scale, 1.0, 1.0)));

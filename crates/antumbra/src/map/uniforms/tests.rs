@@ -47,6 +47,10 @@ fn device() -> Capabilities {
     Capabilities { features: wgpu::Features::empty(), limits: wgpu::Limits::default() }
 }
 
+fn size(views: u32) -> shader::MapSize {
+    shader::MapSize { views, capacity: crate::Capacity::default() }
+}
+
 fn width_names(technique: &dyn Technique) -> Vec<&'static str> {
     technique.widths().into_iter().map(|(name, _)| name).collect()
 }
@@ -60,7 +64,7 @@ fn same(wgsl: &str, widths: &[&str]) -> Result<(), String> {
 #[test]
 fn the_view_is_laid_out_alike_in_rust_and_wgsl() {
     for technique in all().into_iter().chain([parse("esm.classifier=zmax").unwrap()]) {
-        let text = shader::receiver(technique.as_ref(), &device(), 3, 0).text();
+        let text = shader::receiver(technique.as_ref(), &device(), size(3), 0).text();
         let widths = width_names(technique.as_ref());
         same(&text, &widths).unwrap();
         let module = parse_str(&text).unwrap();
@@ -122,7 +126,7 @@ fn what_is_written_lies_where_the_shader_reads_it() {
         "poisson.kernel=31,width=1400",
     ] {
         let technique = parse(technique).unwrap();
-        let module = parse_str(&shader::receiver(technique.as_ref(), &device(), 3, 0).text()).unwrap();
+        let module = parse_str(&shader::receiver(technique.as_ref(), &device(), size(3), 0).text()).unwrap();
         let (members, span) = layout(&module, "ShadowUniforms");
         let bytes = written(technique.as_ref(), bias, Size { width: 640, height: 480 }, &[view, view], 3);
         assert!(bytes.len() <= span as usize && span as usize <= bytes.len().next_multiple_of(16));

@@ -1,0 +1,89 @@
+//! Memory for triangles follows from the scene; what the device refuses is invalid or left out, and the
+//! others go on.
+
+#![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
+
+use antumbra::{Capacity, Technique, technique::Bias};
+use antumbra_lab::{
+    compare::{self, Entered},
+    gpu::Gpu,
+    results::Refused,
+    stage::Stage,
+};
+use antumbra_scene::{Geometry, Light, procedural};
+use antumbra_testing::Trials;
+
+const RESOLUTION: [u32; 2] = [16, 12];
+
+fn main() {
+    let mut trials = Trials::default();
+    trials.add("a stage knows how many triangles its maps must hold", |gpu| {
+        for (name, pieces) in [("spheres", 1), ("spot", 2)] {
+            let (stage, geometry, _) = staged(&adopted(gpu), name);
+            assert_eq!(stage.capacity().triangles as usize, pieces * geometry.triangle_count(), "{name}");
+        }
+    });
+    trials.add("maps that are too small are allocated anew", |gpu| {
+        let gpu = adopted(gpu);
+        let (stage, _, _) = staged(&gpu, "spheres");
+        let enough = stage.capacity().triangles;
+        for spec in ["dpm", "exact"] {
+            let entered = enter(&gpu, "spheres", few(5), &[spec]).unwrap();
+            let [contestant] = &entered.contestants[..] else { panic!("{entered:?}") };
+            assert_eq!((contestant.shadows.capacity().triangles, contestant.invalid()), (enough, None));
+        }
+    });
+    trials.add("where that is refused they are invalid", |_| {
+        // Vertices of all 17 triangles take 816 bytes, those of 16 fit, as do the scene's own buffers.
+        let limits = wgpu::Limits { max_storage_buffer_binding_size: 768, ..least() };
+        let entered = enter(&opened(limits), "contact", few(16), &["hard", "dpm.keeps=1"]).unwrap();
+        let invalid: Vec<_> = entered.contestants.iter().map(compare::Contestant::invalid).collect();
+        assert!(entered.left_out.is_empty(), "{:?}", entered.left_out);
+        assert_eq!(invalid[0], None);
+        assert!(invalid[1].as_ref().unwrap().contains("17 triangles, with memory for 16"), "{invalid:?}");
+    });
+    trials.add("what is refused is left out, and the others stay", |_| {
+        let limits = wgpu::Limits { max_storage_buffer_binding_size: 768, ..least() };
+        let entered = enter(&opened(limits.clone()), "contact", few(17), &["dpm", "hard", "spsm"]).unwrap();
+        let kept: Vec<_> = entered.contestants.iter().map(|c| (c.entry, c.shadows.technique().page().name)).collect();
+        assert_eq!(kept, [(1, "hard"), (2, "spsm")]);
+        let [left_out] = &entered.left_out[..] else { panic!("{:?}", entered.left_out) };
+        assert_eq!(left_out.spec, "dpm");
+        assert!(left_out.reason.contains("storage binding"), "{left_out}");
+        let error = enter(&opened(limits), "contact", few(17), &["dpm"]).unwrap_err();
+        assert!(error.is::<Refused>() && error.to_string().contains("dpm: "), "{error}");
+    });
+    trials.run();
+}
+
+/// One storage buffer less, and casters that are triangles have none left to be split into.
+fn least() -> wgpu::Limits {
+    wgpu::Limits { max_color_attachment_bytes_per_sample: 48, ..wgpu::Limits::default() }
+}
+
+fn adopted(gpu: &antumbra_testing::Gpu) -> Gpu {
+    Gpu::adopt(gpu.device.clone(), gpu.queue.clone(), gpu.info.clone())
+}
+
+fn opened(limits: wgpu::Limits) -> Gpu {
+    adopted(&antumbra_testing::gpu_with(wgpu::Features::empty(), limits).unwrap())
+}
+
+fn few(triangles: u32) -> Capacity {
+    Capacity { triangles, ..Capacity::default() }
+}
+
+fn staged(gpu: &Gpu, name: &str) -> (Stage, Geometry, Light) {
+    let scene = procedural::by_name(name).unwrap().scene(1);
+    let (geometry, light) = (scene.flatten(), scene.main_light());
+    let stage = Stage::new(gpu, &geometry, &scene.main_camera(), &light, RESOLUTION).unwrap();
+    (stage, geometry, light)
+}
+
+fn enter(gpu: &Gpu, name: &str, capacity: Capacity, specs: &[&str]) -> anyhow::Result<Entered> {
+    let (mut stage, geometry, light) = staged(gpu, name);
+    stage.set_capacity(capacity);
+    let techniques = compare::techniques(&specs.iter().map(|s| (*s).into()).collect::<Vec<_>>(), 3).unwrap();
+    let entries: Vec<(Box<dyn Technique>, Bias)> = techniques.into_iter().map(|t| (t, Bias::Auto)).collect();
+    compare::enter_biased(gpu, &mut stage, &geometry, &light, &entries, 8).map(|(entered, _)| entered)
+}

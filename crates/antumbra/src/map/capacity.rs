@@ -1,0 +1,57 @@
+//! How many triangles a map has memory for.
+
+use super::lists::ROW;
+
+/// Memory that a [`ShadowMap`](crate::ShadowMap) allocates for triangles, where its technique keeps them by
+/// id: those whose [`caster`](crate::Technique::caster) is [`Caster::Lists`] or [`Caster::Ranked`]. All
+/// others ignore it.
+///
+/// It follows from the scene. Triangles beyond it cast no shadow;
+/// [`ShadowMap::triangles_drawn`](crate::ShadowMap::triangles_drawn) and
+/// [`ShadowMap::list_totals`](crate::ShadowMap::list_totals) tell what a scene needed.
+///
+/// [`Caster::Lists`]: crate::technique::Caster::Lists
+/// [`Caster::Ranked`]: crate::technique::Caster::Ranked
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Capacity {
+    /// Triangles of one view, 1 to 2³⁰: those of the scene, or twice as many under a spot, which may cut each
+    /// in two. 48 bytes each in every view. By default 524,288.
+    pub triangles: u32,
+    /// Length of a texel's list on average over the map, 1 or more, where all triangles are listed
+    /// ([`Caster::Lists`](crate::technique::Caster::Lists)). 4 bytes each in every texel. By default 6.
+    pub triangles_per_texel: u32,
+}
+
+impl Default for Capacity {
+    fn default() -> Self {
+        Self { triangles: 1 << 19, triangles_per_texel: 6 }
+    }
+}
+
+impl Capacity {
+    /// Most triangles of a view: their ids leave one bit of a key for depth and one for the side.
+    pub const MAX_TRIANGLES: u32 = 1 << 30;
+
+    /// Bits of the ids of its triangles, 1 to 30.
+    #[must_use]
+    pub fn id_bits(self) -> u32 {
+        self.triangles.clamp(2, Self::MAX_TRIANGLES).next_power_of_two().ilog2()
+    }
+
+    /// Rows of textures of vertices.
+    pub(super) fn rows(self) -> u32 {
+        self.triangles.div_ceil(ROW)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ids_have_as_many_bits_as_they_need() {
+        let bits = |triangles| Capacity { triangles, ..Capacity::default() }.id_bits();
+        assert_eq!([0, 1, 2, 3, 4, 5].map(bits), [1, 1, 1, 2, 2, 3]);
+        assert_eq!([1 << 19, (1 << 19) + 1, u32::MAX].map(bits), [19, 20, 30]);
+    }
+}
