@@ -17,6 +17,7 @@ mod casters;
 mod frame;
 mod materials;
 mod nearest;
+mod parts;
 mod pipelines;
 pub(crate) mod surfaces;
 
@@ -56,6 +57,8 @@ pub struct Stage {
     views: Vec<antumbra::View>,
     surfaces: Surfaces,
     capacity: Capacity,
+    /// Of the casters' buffers, as bindings can hold them.
+    parts: Vec<antumbra::MeshPart>,
 }
 
 impl Stage {
@@ -125,6 +128,7 @@ impl Stage {
             light_stride,
             views: Vec::new(),
             capacity: capacity(geometry, light),
+            parts: parts::parts(&geometry.indices, most_vertices(&limits)),
         };
         gpu.check()?;
         Ok(stage)
@@ -289,6 +293,12 @@ impl Stage {
         let words = bytes.chunks_exact(4).map(|b| u32::from_ne_bytes([b[0], b[1], b[2], b[3]]));
         Ok(words.map(|n| n.wrapping_sub(1)).collect())
     }
+}
+
+/// Vertices that one binding holds wherever it begins.
+fn most_vertices(limits: &wgpu::Limits) -> u32 {
+    let bytes = limits.max_storage_buffer_binding_size / size_of::<Vec3>() as u64;
+    u32::try_from(bytes).unwrap_or(u32::MAX).saturating_sub(limits.min_storage_buffer_offset_alignment / 4)
 }
 
 /// Of all triangles; those under a spot may be cut in two.

@@ -34,39 +34,39 @@ fn main() {
         }
     });
     trials.add("where that is refused they are invalid", |_| {
-        // Vertices of all 17 triangles take 816 bytes, those of 16 fit, as do the scene's own buffers.
-        let limits = wgpu::Limits { max_storage_buffer_binding_size: 768, ..least() };
-        let entered = enter(&opened(limits), "contact", few(16), &["hard", "dpm.keeps=1"]).unwrap();
+        let entered = enter(&opened(), "contact", few(16), &["hard", "dpm.keeps=1"]).unwrap();
         let invalid: Vec<_> = entered.contestants.iter().map(compare::Contestant::invalid).collect();
         assert!(entered.left_out.is_empty(), "{:?}", entered.left_out);
         assert_eq!(invalid[0], None);
         assert!(invalid[1].as_ref().unwrap().contains("17 triangles, with memory for 16"), "{invalid:?}");
     });
     trials.add("what is refused is left out, and the others stay", |_| {
-        let limits = wgpu::Limits { max_storage_buffer_binding_size: 768, ..least() };
-        let entered = enter(&opened(limits.clone()), "contact", few(17), &["dpm", "hard", "spsm"]).unwrap();
+        let entered = enter(&opened(), "contact", few(17), &["dpm", "hard", "spsm"]).unwrap();
         let kept: Vec<_> = entered.contestants.iter().map(|c| (c.entry, c.shadows.technique().page().name)).collect();
         assert_eq!(kept, [(1, "hard"), (2, "spsm")]);
         let [left_out] = &entered.left_out[..] else { panic!("{:?}", entered.left_out) };
         assert_eq!(left_out.spec, "dpm");
-        assert!(left_out.reason.contains("storage binding"), "{left_out}");
-        let error = enter(&opened(limits), "contact", few(17), &["dpm"]).unwrap_err();
+        assert!(left_out.reason.contains("storage"), "{left_out}");
+        let error = enter(&opened(), "contact", few(17), &["dpm"]).unwrap_err();
         assert!(error.is::<Refused>() && error.to_string().contains("dpm: "), "{error}");
     });
     trials.run();
 }
 
-/// One storage buffer less, and casters that are triangles have none left to be split into.
-fn least() -> wgpu::Limits {
-    wgpu::Limits { max_color_attachment_bytes_per_sample: 48, ..wgpu::Limits::default() }
+/// A device whose bindings hold the corners of 16 triangles (the scene has 17), and no buffer more than keeping
+/// triangles takes.
+fn opened() -> Gpu {
+    let limits = wgpu::Limits {
+        max_storage_buffer_binding_size: 16 * 48,
+        max_storage_buffers_per_shader_stage: 5,
+        max_color_attachment_bytes_per_sample: 48,
+        ..wgpu::Limits::default()
+    };
+    adopted(&antumbra_testing::gpu_with(wgpu::Features::empty(), limits).unwrap())
 }
 
 fn adopted(gpu: &antumbra_testing::Gpu) -> Gpu {
     Gpu::adopt(gpu.device.clone(), gpu.queue.clone(), gpu.info.clone())
-}
-
-fn opened(limits: wgpu::Limits) -> Gpu {
-    adopted(&antumbra_testing::gpu_with(wgpu::Features::empty(), limits).unwrap())
 }
 
 fn few(triangles: u32) -> Capacity {

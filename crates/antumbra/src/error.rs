@@ -130,15 +130,25 @@ pub enum MeshError {
         /// What it must have at least.
         needed: String,
     },
-    /// Not a triangle, or more than one binding may hold.
-    #[error("the buffer of {what} has {bytes} bytes; allowed on this device: 12 to {max}")]
+    /// More than one binding may hold.
+    #[error("{what} take {bytes} bytes; a binding holds {max} on this device: see CasterMesh::in_parts")]
     Bytes {
         /// positions or indices.
         what: &'static str,
-        /// Its size.
+        /// Bytes of all, or of those of a part.
         bytes: u64,
         /// Largest size.
         max: u64,
+    },
+    /// A range that is empty or not within the positions.
+    #[error("vertices {start}..{end} are none, or not within the {count} that the positions hold")]
+    Vertices {
+        /// First vertex.
+        start: u32,
+        /// Behind the last.
+        end: u32,
+        /// Vertices that there are.
+        count: u32,
     },
     /// A range that is not within the indices.
     #[error("triangles {start}..{end} are not within the {count} that the indices hold or that can be drawn")]

@@ -131,7 +131,7 @@ pub use filter::{Filter, Sampling, Values};
 pub use kernel::{Kernel, Weights};
 pub use light::{Bounds, Fit, Light, Size, View};
 pub use map::{
-    Capacity, CasterMesh, DEPTH_FORMAT, Lifetime, Memory, MemoryItem, NoProbe, Options, Pipelines, Probe,
+    Capacity, CasterMesh, DEPTH_FORMAT, Lifetime, Memory, MemoryItem, MeshPart, NoProbe, Options, Pipelines, Probe,
     ShadowMap, TooManyViews,
 };
 pub use parameter::{Choice, Field, Parameter};

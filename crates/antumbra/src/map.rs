@@ -19,7 +19,9 @@ mod draw;
 mod explain;
 mod lists;
 mod memory;
+mod mesh;
 mod numbered;
+mod pieces;
 mod pipelines;
 mod ranked;
 mod receiver;
@@ -27,11 +29,11 @@ mod textures;
 mod uniforms;
 
 pub use capacity::Capacity;
-pub use caster::CasterMesh;
 use caster::TriangleCaster;
 use draw::Draw;
 use lists::{ListSize, Lists};
 pub use memory::{Lifetime, Memory, MemoryItem};
+pub use mesh::{CasterMesh, MeshPart};
 use numbered::Numbered;
 pub use pipelines::Pipelines;
 use ranked::{RankedSize, RankedTriangles};
@@ -460,7 +462,11 @@ impl ShadowMap {
     /// `shadow_visibility(position, normal, ddx, ddy) -> f32` with all it needs, bound in `group`.
     #[must_use]
     pub fn wgsl(&self, group: u32) -> ShaderText {
-        let size = shader::MapSize { views: self.room, capacity: self.capacity };
+        let size = shader::MapSize {
+            views: self.room,
+            capacity: self.capacity,
+            splits: self.ranked.as_ref().map(RankedTriangles::splits).unwrap_or_default(),
+        };
         shader::receiver(self.technique.as_ref(), &self.capabilities, size, group)
     }
 

@@ -10,6 +10,7 @@ use crate::{
     map::Capacity,
     technique::{Binding, Caster, Constant, Coverage, DepthSpace, Family, List, Map, Ranked, Technique},
 };
+use split::Splits;
 use std::fmt::Write;
 
 /// Every shared WGSL file by its stem; a folder's name is part of the stem.
@@ -189,8 +190,8 @@ fn wgsl_type(binding: Binding, maps: &[Map]) -> &'static str {
         Binding::Map(_) | Binding::List(List::Corners) => "texture_2d_array<f32>",
         Binding::List(List::Ranges | List::Numbers) => "texture_2d_array<u32>",
         Binding::Sampler => "sampler",
-        Binding::Ranked(Ranked::Keys) => "array<u32>",
-        Binding::Ranked(Ranked::Corners) => "array<vec4f>",
+        // Declared by `Split`.
+        Binding::Ranked(_) => "array<vec4f>",
     }
 }
 
@@ -199,21 +200,24 @@ fn wgsl_type(binding: Binding, maps: &[Map]) -> &'static str {
 pub(crate) struct MapSize {
     pub(crate) views: u32,
     pub(crate) capacity: Capacity,
+    pub(crate) splits: Splits,
 }
 
 /// The functions through which a technique reads a buffer, which WGSL cannot pass on.
-fn accessors(ranked: Ranked, buffer: &str, size: MapSize) -> String {
+fn accessors(ranked: Ranked, name: &str, size: MapSize) -> String {
     let Capacity { triangles, .. } = size.capacity;
     match ranked {
         Ranked::Keys => format!(
-            "fn shadow_key(i: u32) -> u32 {{ return {buffer}[i]; }}\n\
+            "fn shadow_key(i: u32) -> u32 {{ {} }}\n\
              fn shadow_key_bits() -> u32 {{ return {}u; }}\n\
              fn shadow_near_over_far(view: u32) -> f32 {{ return shadow.views[view].near_over_far; }}\n",
+            size.splits.keys.chosen(name, |buffer, i| format!("return {buffer}[{i}];")),
             size.capacity.id_bits()
         ),
         Ranked::Corners => format!(
             "fn shadow_corner(view: u32, triangle: u32, corner: u32) -> vec3f {{ \
-             return {buffer}[3u * (view * {triangles}u + triangle) + corner].xyz; }}\n"
+             let i = view * {triangles}u + triangle; {} }}\n",
+            size.splits.corners.chosen(name, |buffer, i| format!("return {buffer}[3u * {i} + corner].xyz;"))
         ),
     }
 }
@@ -241,10 +245,20 @@ pub(crate) fn receiver(
     let _ = writeln!(glue, "}}\n@group({group}) @binding(0) var<uniform> shadow: ShadowUniforms;");
     let mut arguments = String::new();
     let maps = technique.maps(device).unwrap_or_default();
+    // Further buffers of split arrays come behind all bindings.
+    let mut more = technique.bindings().len() as u32;
     for (i, binding) in technique.bindings().into_iter().enumerate() {
         if let Binding::Ranked(ranked) = binding {
-            let (ty, name) = (wgsl_type(binding, &maps), format!("shadow_binding_{i}"));
-            let _ = writeln!(glue, "@group({group}) @binding({}) var<storage, read> {name}: {ty};", i + 1);
+            let (split, of) = match ranked {
+                Ranked::Keys => (size.splits.keys, "u32"),
+                Ranked::Corners => (size.splits.corners, "vec4f"),
+            };
+            let name = format!("shadow_binding_{i}");
+            glue += &split.declared(&name, "read", of, group, |k| match k {
+                0 => i as u32 + 1,
+                k => more + k,
+            });
+            more += split.count() - 1;
             glue += &accessors(ranked, &name, size);
             continue;
         }
@@ -327,6 +341,7 @@ pub(crate) fn triangles(
     device: &Capabilities,
     cutout: Option<&str>,
     pass: TrianglePass,
+    splits: &Splits,
 ) -> String {
     let mut shader = match technique.caster() {
         // Nothing that it looks up is bound here.
@@ -355,7 +370,9 @@ pub(crate) fn triangles(
             || cutout.is_none() && line.contains("// cut-outs")
             || !own_depth && line.contains("// own depth")
     };
-    let glue = MESH.lines().chain(entry.into_iter().flat_map(str::lines)).filter(|line| !left_out(line));
+    let buffers = buffers::of_casters(technique.caster(), splits);
+    let entry = entry.map(|text| text.replace("{buffers}\n", &buffers));
+    let glue = MESH.lines().chain(entry.iter().flat_map(|text| text.lines())).filter(|line| !left_out(line));
     let reach = |coverage| if coverage == Coverage::Touched { "0.5" } else { "0.0" };
     let (reach, spot) = match pass {
         TrianglePass::Any => ("caster_view.reach", "(caster_view.perspective == 1u)"),
@@ -372,8 +389,12 @@ pub(crate) fn triangles(
 }
 
 /// The pass between counting and filling lists.
-pub(crate) const SCAN: &str = include_str!("shader/scan.wgsl");
+pub(crate) fn scan(splits: &Splits) -> String {
+    include_str!("shader/scan.wgsl.in").replace("{buffers}\n", &buffers::of_scan(splits))
+}
 
+pub(crate) mod buffers;
+pub(crate) mod split;
 mod unroll;
 
 #[cfg(test)]

@@ -226,15 +226,17 @@ fn triangles(gpu: &Gpu) {
     let limits = wgpu::Limits { max_texture_dimension_2d: 2048, ..limits };
     let lesser = antumbra_testing::gpu_with(wgpu::Features::empty(), limits).unwrap();
     lesser.checked(|gpu| {
-        let message = refusal(gpu, &Exact, of(17, 1, 1));
-        says(&message, &["exact", "1156 bytes", "1024", "at most 256 texels"]);
+        // In bindings of 1024 bytes: 5 for keys, 1 for corners, and 3 others.
         let dpm = |keeps| Dpm { keeps, ..Dpm::default() };
         let message = refusal(gpu, &dpm(4), of(17, 1, 1));
-        says(&message, &["dpm", "4624 bytes", "1024", "at most 64 texels"]);
-        let message = refusal(gpu, &dpm(4), of(9, 1, 1));
-        says(&message, &["dpm", "1296 bytes", "at most 3 triangles per texel, or 64 texels"]);
-        let message = refusal(gpu, &dpm(1), of(4, 22, 1));
-        says(&message, &["dpm", "1056 bytes", "corners", "at most 21 triangles"]);
+        says(&message, &["dpm", "9 storage buffers in a stage (8 are possible)", "1024 bytes", "Options::capacity"]);
+        let message = refusal(gpu, &dpm(1), of(4, 5 * 21 + 1, 1));
+        says(&message, &["dpm", "10 storage buffers"]);
+        let message = refusal(gpu, &Exact, of(40, 1, 1));
+        says(&message, &["exact", "10 storage buffers"]);
+        for (technique, size) in [(&dpm(4) as &dyn Technique, 16), (&Exact, 32)] {
+            ShadowMap::new(&gpu.device, technique, of(size, 1, 1)).unwrap();
+        }
         let message = refusal(gpu, &Exact, of(8, 2048 * 2048 + 1, 1));
         says(&message, &["exact", "4194305 triangles", "2049 rows", "at most 4194304 triangles"]);
     });

@@ -32,8 +32,8 @@ impl Casters {
         if shadows.technique().caster() == Caster::Depth {
             return Ok(Self::Depth);
         }
-        let triangles = 0..stage.groups.iter().map(|group| group.1.end / 3).max().unwrap_or(0);
-        let mesh = CasterMesh::new(&gpu.device, &stage.positions, &stage.indices, triangles, Mat4::IDENTITY)?;
+        let (positions, indices) = (&stage.positions, &stage.indices);
+        let mesh = CasterMesh::in_parts(&gpu.device, positions, indices, &stage.parts, Mat4::IDENTITY)?;
         // Large scenes have more attributes than a binding holds, and most of them no cut-outs.
         if !stage.groups.iter().any(|group| group.2) {
             return Ok(Self::Triangles { mesh, cutout: None });

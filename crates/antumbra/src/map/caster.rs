@@ -1,14 +1,12 @@
-//! The pass that draws triangles instead of depth, and the meshes that it draws.
+//! The pass that draws triangles instead of depth.
 
 use super::{DEPTH_FORMAT, memory::MemoryItem, pipelines::Pipelines};
 use crate::{
     capabilities::Capabilities,
-    error::MeshError,
     light::{Size, View},
-    shader::{self, TrianglePass},
+    shader::{self, TrianglePass, split::Splits},
     technique::{Coverage, Technique},
 };
-use glam::Mat4;
 use std::{
     cell::Cell,
     num::NonZeroU64,
@@ -19,10 +17,6 @@ use wgpu::{BindGroup, BindGroupLayout, BufferBindingType, RenderPipeline, Textur
 
 /// Share of a spot's near distance in front of which casters are cut off.
 const LEAST_DISTANCE: f32 = 1.0 / 64.0;
-
-/// Most triangles in one draw. Software drivers keep the vertices of a draw, which should fit their
-/// caches, and treat all of them as clipped if one is.
-const DRAWN_TOGETHER: u32 = 2048;
 
 /// Rust side of `CasterView` in `mesh.wgsl.in`.
 #[repr(C)]
@@ -59,103 +53,6 @@ impl CasterView {
     }
 }
 
-/// Triangles that cast shadows for a technique whose caster is not [`Caster::Depth`]: positions and
-/// indices that the library's vertex shader reads from storage buffers, so that it sees whole
-/// triangles.
-///
-/// [`Caster::Depth`]: crate::technique::Caster::Depth
-#[derive(Debug)]
-pub struct CasterMesh {
-    place: wgpu::Buffer,
-    group: BindGroup,
-    indices: wgpu::Buffer,
-    triangles: Range<u32>,
-}
-
-impl CasterMesh {
-    /// Of two buffers with usage `STORAGE`: `positions`, three `f32` each, tightly packed (a vertex
-    /// buffer of stride 12); `indices`, with usage `INDEX` too, `u32`, three per triangle, of which the
-    /// triangles of the range are drawn. Either winding. Indices must be in range: what lies beyond a buffer
-    /// is unspecified.
-    ///
-    /// # Errors
-    /// [`MeshError`]: usage, size against the device's limits, a range beyond the indices.
-    pub fn new(
-        device: &wgpu::Device,
-        positions: &wgpu::Buffer,
-        indices: &wgpu::Buffer,
-        triangles: Range<u32>,
-        world_from_object: Mat4,
-    ) -> Result<Self, MeshError> {
-        let most = device.limits().max_storage_buffer_binding_size;
-        use wgpu::BufferUsages as Usage;
-        let needed =
-            [("positions", positions, Usage::STORAGE), ("indices", indices, Usage::STORAGE | Usage::INDEX)];
-        for (what, buffer, needed) in needed {
-            if !buffer.usage().contains(needed) {
-                let [found, needed] = [buffer.usage(), needed].map(|usage| format!("{usage:?}"));
-                return Err(MeshError::Usage { what, found, needed });
-            }
-            if !(12..=most).contains(&buffer.size()) {
-                return Err(MeshError::Bytes { what, bytes: buffer.size(), max: most });
-            }
-        }
-        // Six vertices per triangle are counted in 32 bits.
-        let count = (indices.size() / 12).min(u64::from(u32::MAX / 6)) as u32;
-        if triangles.start > triangles.end || triangles.end > count {
-            return Err(MeshError::Triangles { start: triangles.start, end: triangles.end, count });
-        }
-        let place = device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("caster mesh"),
-            size: size_of::<Mat4>() as u64,
-            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
-            mapped_at_creation: true,
-        });
-        if let Ok(mut bytes) = place.get_mapped_range_mut(..) {
-            bytes.copy_from_slice(bytemuck::bytes_of(&world_from_object));
-        }
-        place.unmap();
-        let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("caster mesh"),
-            layout: &mesh_layout(device),
-            entries: &[bound(0, &place), bound(1, positions), bound(2, indices)],
-        });
-        Ok(Self { place, group, indices: indices.clone(), triangles })
-    }
-
-    /// Moves it.
-    pub fn place(&self, queue: &wgpu::Queue, world_from_object: Mat4) {
-        queue.write_buffer(&self.place, 0, bytemuck::bytes_of(&world_from_object));
-    }
-
-    /// Draws it in the pass that [`ShadowMap::encode`](crate::ShadowMap::encode) hands out for `view`:
-    /// three vertices per triangle, six under a spot, whose triangles may have to be cut.
-    pub fn draw(&self, view: &View, pass: &mut wgpu::RenderPass<'_>) {
-        self.draw_part(view, pass, self.triangles.clone());
-    }
-
-    /// Draws some of its triangles, counted from the first index. Leaves out those that
-    /// [`new`](Self::new) was not given.
-    pub fn draw_part(&self, view: &View, pass: &mut wgpu::RenderPass<'_>, triangles: Range<u32>) {
-        let vertices = 3 * (1 + perspective(view));
-        let (start, end) = (triangles.start.max(self.triangles.start), triangles.end.min(self.triangles.end));
-        if start >= end {
-            return;
-        }
-        pass.set_bind_group(1, &self.group, &[]);
-        if DRAWS_INDEXED.get() {
-            pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
-            pass.draw_indexed(3 * start..3 * end, 0, start..start + 1);
-            return;
-        }
-        let first = number(vertices / 3 * start..vertices / 3 * end);
-        for start in (start..end).step_by(DRAWN_TOGETHER as usize) {
-            let end = end.min(start.saturating_add(DRAWN_TOGETHER));
-            pass.draw(vertices * start..vertices * end, first..first + 1);
-        }
-    }
-}
-
 thread_local! {
     /// The first number that no triangle of the pass has which this thread records. Lists tell
     /// triangles of all meshes apart by numbers, and draws know neither one another nor their map.
@@ -180,16 +77,19 @@ pub(super) fn numbered() -> u32 {
     NEXT_NUMBER.get()
 }
 
+/// Whether the pass that this thread records wants shared vertices.
+pub(super) fn draws_indexed() -> bool {
+    DRAWS_INDEXED.get()
+}
+
 /// What is added to those indices, so that no triangle before has the same number.
-fn number(indices: Range<u32>) -> u32 {
+pub(super) fn number(indices: Range<u32>) -> u32 {
     let first = NEXT_NUMBER.get().max(indices.start) - indices.start;
     NEXT_NUMBER.set(first.saturating_add(indices.end));
     first.min(u32::MAX - 1)
 }
 
-fn bound(binding: u32, buffer: &wgpu::Buffer) -> wgpu::BindGroupEntry<'_> {
-    wgpu::BindGroupEntry { binding, resource: buffer.as_entire_binding() }
-}
+
 
 /// 1 for a spot's view, else 0.
 pub(super) fn perspective(view: &View) -> u32 {
@@ -210,7 +110,7 @@ fn layout(device: &wgpu::Device, label: &str, types: &[BufferBindingType]) -> Bi
 
 pub(super) fn mesh_layout(device: &wgpu::Device) -> BindGroupLayout {
     let read = BufferBindingType::Storage { read_only: true };
-    layout(device, "caster mesh", &[BufferBindingType::Uniform, read, read])
+    layout(device, "caster mesh", &[BufferBindingType::Uniform, read, read, BufferBindingType::Uniform])
 }
 
 /// Pipeline and views of the pass.
@@ -268,7 +168,7 @@ impl TriangleCaster {
         };
         let capabilities = Capabilities::of(device);
         let compiled = |pass| {
-            let shader = shader::triangles(technique, &capabilities, None, pass);
+            let shader = shader::triangles(technique, &capabilities, None, pass, &Splits::default());
             let conservative = pass == TrianglePass::Indexed(Coverage::Touched);
             pipelines.caster(&shader, &[format], |device| {
                 compile(device, &shader, format, conservative, &layout, &[])
@@ -307,7 +207,8 @@ impl TriangleCaster {
         wgsl: &str,
         user: &[&BindGroupLayout],
     ) -> RenderPipeline {
-        let shader = shader::triangles(technique, &Capabilities::of(device), Some(wgsl), TrianglePass::Any);
+        let (device_can, pass, splits) = (Capabilities::of(device), TrianglePass::Any, Splits::default());
+        let shader = shader::triangles(technique, &device_can, Some(wgsl), pass, &splits);
         let own = layout(device, "shadow caster view", &[BufferBindingType::Uniform]);
         self.pulls.store(true, Ordering::Relaxed);
         compile(device, &shader, self.format, false, &own, user)

@@ -9,6 +9,7 @@ use super::{
 use crate::{
     error::{SettingError, Unsupported},
     light::Size,
+    shader::split::{Split, Splits},
     technique::{Caster, Map, Technique},
 };
 use wgpu::TextureUsages;
@@ -117,11 +118,8 @@ pub(super) fn lists(
         return Err(Unsupported::Layers { views: extent.views, layers, max });
     }
     let refused = |what, instead| refused(technique, what, instead);
-    let (bytes, max) = (extent.count_bytes(), limits.max_storage_buffer_binding_size);
-    if bytes > max {
-        let what = format!("a storage binding of {bytes} bytes for the counts ({max} are possible)");
-        return refused(what, format!("take at most {} texels", max / 4));
-    }
+    // Marks, and two of a mesh.
+    buffers(technique, &limits, &[extent.splits(&limits).counts], 3)?;
     let max = limits.max_texture_dimension_2d;
     if max < ROW {
         return refused(
@@ -140,8 +138,33 @@ pub(super) fn lists(
     Ok(())
 }
 
-/// Storage buffers of the fragments that rank triangles: three of their own, two of a mesh.
-const RANKED_BUFFERS: u32 = 5;
+/// Whether arrays that are split, and `others`, are no more storage buffers than a stage may have.
+fn buffers(
+    technique: &dyn Technique,
+    limits: &wgpu::Limits,
+    split: &[Split],
+    others: u32,
+) -> Result<(), Unsupported> {
+    let counts = split.iter().map(|split| split.count());
+    let needed = counts.clone().fold(others, u32::saturating_add);
+    let found = limits.max_storage_buffers_per_shader_stage;
+    // Shaders count elements with 32 bits.
+    let few = |split: &Split| split.count() <= Split::MAX_BUFFERS && split.elements <= u64::from(u32::MAX);
+    if needed <= found && split.iter().all(few) {
+        return Ok(());
+    }
+    let what = format!("{needed} storage buffers in a stage ({found} are possible)");
+    let instead = match counts.max() {
+        Some(1) | None => "take another technique".into(),
+        _ => {
+            let max = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
+            format!(
+                "a buffer holds {max} bytes here: take fewer texels or views, or fewer triangles (Options::capacity)"
+            )
+        }
+    };
+    refused(technique, what, instead)
+}
 
 /// Whether the first triangles of texels fit.
 pub(super) fn ranked(
@@ -150,37 +173,13 @@ pub(super) fn ranked(
     extent: RankedSize,
 ) -> Result<(), Unsupported> {
     capacity(extent.capacity)?;
-    let limits = device.limits();
-    let max = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
     if extent.keeps == 0 {
-        let what = "0 triangles per texel".into();
-        return refused(technique, what, "keep at least one".into());
+        return refused(technique, "0 triangles per texel".into(), "keep at least one".into());
     }
-    let (found, needed) = (limits.max_storage_buffers_per_shader_stage, RANKED_BUFFERS);
-    if found < needed {
-        let what = format!("{needed} storage buffers in a stage ({found} are possible)");
-        return refused(technique, what, "take another technique".into());
-    }
-    let refused = |bytes: u64, of: &str, instead: String| {
-        let what = format!("a storage binding of {bytes} bytes for {of} ({max} are possible)");
-        refused(technique, what, instead)
-    };
-    let (keys, corners) = (extent.key_bytes(), extent.corner_bytes());
-    if keys > max {
-        let texels = max / (4 * u64::from(extent.views) * u64::from(extent.keeps));
-        let keeps = max / (keys / u64::from(extent.keeps));
-        let fewer = if keeps > 0 { format!("{keeps} triangles per texel, or ") } else { String::new() };
-        return refused(keys, "the triangles of texels", format!("take at most {fewer}{texels} texels"));
-    }
-    if corners > max {
-        let most = max / (corners / u64::from(extent.capacity.triangles));
-        return refused(
-            corners,
-            "corners of triangles",
-            format!("give Options::capacity at most {most} triangles"),
-        );
-    }
-    Ok(())
+    let limits = device.limits();
+    let Splits { keys, corners, .. } = extent.splits(&limits);
+    // Marks, and two of a mesh.
+    buffers(technique, &limits, &[keys, corners], 3)
 }
 
 /// Whether the passes can read a caller's depth; how many views it holds, with that many layers each.

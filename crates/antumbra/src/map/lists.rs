@@ -7,11 +7,16 @@ use super::{
     Capacity, Probe, draw,
     memory::{Lifetime, MemoryItem},
     numbered::{self, ATOMIC, Numbered, UNIFORM},
+    pieces::Pieces,
     pipelines::Pipelines,
 };
 use crate::{
     light::{Size, View},
-    shader,
+    shader::{
+        self,
+        buffers::{LIST_BINDINGS, SCAN_BINDINGS},
+        split::{Split, Splits},
+    },
     technique::{List, Technique},
 };
 use wgpu::{
@@ -21,10 +26,12 @@ use wgpu::{
 
 /// Texels across and, at most, down of textures that are arrays, as in `lists.wgsl.in` and `exact.wgsl`.
 pub(super) const ROW: u32 = 2048;
-/// Texels of an invocation of `scan.wgsl`.
+/// Texels of an invocation of `scan.wgsl.in`.
 const SEGMENT: u32 = 128;
 /// Invocations of its workgroups.
 const WORKGROUP: u32 = 64;
+/// Bytes of the count of a texel.
+const COUNT: u64 = 4;
 /// Bytes of `ListTotals`.
 const TOTALS: u64 = 8;
 
@@ -37,14 +44,20 @@ pub(super) struct ListSize {
 }
 
 impl ListSize {
-    /// Bytes of the count of every texel.
-    pub(super) fn count_bytes(&self) -> u64 {
-        4 * u64::from(self.size.width) * u64::from(self.size.height)
+    /// Texels of a view.
+    fn texels(&self) -> u64 {
+        u64::from(self.size.width) * u64::from(self.size.height)
+    }
+
+    /// How counts are split.
+    pub(super) fn splits(&self, limits: &wgpu::Limits) -> Splits {
+        let max = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
+        Splits { counts: Split::new(self.texels(), COUNT, max), ..Splits::default() }
     }
 
     /// Entries of a view.
     fn entries(&self) -> u32 {
-        (self.count_bytes() / 4 * u64::from(self.capacity.triangles_per_texel)).min(u64::from(u32::MAX))
+        (self.texels() * u64::from(self.capacity.triangles_per_texel)).min(u64::from(u32::MAX))
             as u32
     }
 
@@ -54,7 +67,7 @@ impl ListSize {
     }
 }
 
-/// Rust side of `ListPass` in `lists.wgsl.in` and `scan.wgsl`.
+/// Rust side of `ListPass` in `lists.wgsl.in` and `scan.wgsl.in`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
 struct ListPass {
@@ -71,7 +84,7 @@ pub(super) struct Lists {
     scan: ComputePipeline,
     extent: ListSize,
     passes: Buffer,
-    counts: Buffer,
+    counts: Pieces,
     marks: Buffer,
     totals: Buffer,
     /// In the order of [`List`], each with a view of all of it.
@@ -90,8 +103,11 @@ impl Lists {
         pipelines: &Pipelines,
     ) -> Self {
         let draws = (extent.size, extent.views);
+        let splits = extent.splits(&device.limits());
+        let more = splits.counts.count() as usize - 1;
+        let layout = (draw_layout(device, more), splits);
         let numbered =
-            Numbered::new(device, technique, draws, CompareFunction::Always, draw_layout(device), pipelines);
+            Numbered::new(device, technique, draws, CompareFunction::Always, layout, pipelines);
         let pass = |slot: u32| {
             let (entries, triangles) = (extent.entries(), extent.capacity.triangles);
             ListPass { view: slot / 2, fills: slot % 2, entries, triangles }
@@ -102,7 +118,7 @@ impl Lists {
             let usage = BufferUsages::STORAGE | BufferUsages::COPY_DST | BufferUsages::COPY_SRC;
             numbered::buffer(device, label, bytes, usage)
         };
-        let counts = storage("list counts", extent.count_bytes());
+        let counts = Pieces::new(device, "list counts", splits.counts, COUNT);
         let marks = storage("list marks", 4 * u64::from(extent.capacity.triangles.div_ceil(32)));
         let totals = storage("list totals", TOTALS * u64::from(extent.views));
         let Size { width, height } = extent.size;
@@ -127,42 +143,32 @@ impl Lists {
             texture(1, "list numbers", ROW, rows, TextureFormat::R32Uint),
             texture(2, "list corners", ROW, extent.capacity.rows(), TextureFormat::Rgba32Float),
         ];
-        let scan_layout = scan_layout(device);
+        let scan_layout = scan_layout(device, more);
         let pass =
             |view: u32, fills: u32| numbered.slot(&passes, 2 * view + fills, size_of::<ListPass>() as u64);
         let of_view = |i: usize, view: u32| part(&textures[i].0, view * layers[i], layers[i]);
         let draw = |view: u32, fills: u32| {
             let (numbers, corners) = (of_view(1, view), of_view(2, view));
-            numbered::bind(
-                device,
-                numbered.layout(),
-                [
-                    numbered.view(view),
-                    pass(view, fills),
-                    counts.as_entire_binding(),
-                    marks.as_entire_binding(),
-                    wgpu::BindingResource::TextureView(&numbers),
-                    wgpu::BindingResource::TextureView(&corners),
-                ],
-            )
+            let (first, more) = (counts.bindings().take(1), counts.bindings().skip(1));
+            let own = [
+                marks.as_entire_binding(),
+                wgpu::BindingResource::TextureView(&numbers),
+                wgpu::BindingResource::TextureView(&corners),
+            ];
+            let all = [numbered.view(view), pass(view, fills)].into_iter().chain(first).chain(own).chain(more);
+            numbered::bind(device, numbered.layout(), all)
         };
         let scan = |view: u32| {
             let ranges = of_view(0, view);
-            numbered::bind(
-                device,
-                &scan_layout,
-                [
-                    pass(view, 0),
-                    counts.as_entire_binding(),
-                    totals.as_entire_binding(),
-                    wgpu::BindingResource::TextureView(&ranges),
-                ],
-            )
+            let (first, more) = (counts.bindings().take(1), counts.bindings().skip(1));
+            let own = [totals.as_entire_binding(), wgpu::BindingResource::TextureView(&ranges)];
+            let all = [pass(view, 0)].into_iter().chain(first).chain(own).chain(more);
+            numbered::bind(device, &scan_layout, all)
         };
         Self {
             draws: (0..extent.views).map(|view| [draw(view, 0), draw(view, 1)]).collect(),
             scans: (0..extent.views).map(scan).collect(),
-            scan: compile_scan(device, &scan_layout),
+            scan: compile_scan(device, &scan_layout, &splits),
             numbered,
             extent,
             passes,
@@ -187,7 +193,7 @@ impl Lists {
         probe: &mut dyn Probe,
         draw: &mut impl FnMut(&View, &mut RenderPass<'_>),
     ) {
-        encoder.clear_buffer(&self.counts, 0, None);
+        self.counts.clear(encoder, 0..self.extent.texels());
         encoder.clear_buffer(&self.marks, 0, None);
         encoder.clear_buffer(&self.totals, index as u64 * TOTALS, Some(TOTALS));
         for fills in 0..2 {
@@ -196,8 +202,8 @@ impl Lists {
                 let mut pass = draw::compute_pass(encoder, "scan", timestamps);
                 pass.set_pipeline(&self.scan);
                 pass.set_bind_group(0, &self.scans[index], &[]);
-                let texels = (self.extent.count_bytes() / 4) as u32;
-                pass.dispatch_workgroups(texels.div_ceil(SEGMENT * WORKGROUP), 1, 1);
+                let groups = self.extent.texels().div_ceil(u64::from(SEGMENT * WORKGROUP));
+                pass.dispatch_workgroups(groups as u32, 1, 1);
             }
             self.numbered.draw(encoder, (index, view), &self.draws[index][fills], depth, probe, draw);
         }
@@ -223,14 +229,15 @@ impl Lists {
             ..MemoryItem::buffer(name, buffer)
         };
         let buffers = [
-            ("list counts", &self.counts, Lifetime::Transient),
             ("list marks", &self.marks, Lifetime::Transient),
             ("list totals", &self.totals, Lifetime::Kept),
             ("list views", self.numbered.views(), Lifetime::Kept),
             ("list passes", &self.passes, Lifetime::Kept),
         ];
         let names = ["list ranges", "list numbers", "list corners"];
-        names.into_iter().zip(&self.textures).map(texture).chain(buffers.into_iter().map(buffer)).collect()
+        let counts = MemoryItem { lifetime: Lifetime::Transient, ..self.counts.memory("list counts") };
+        let buffers = [counts].into_iter().chain(buffers.into_iter().map(buffer));
+        names.into_iter().zip(&self.textures).map(texture).chain(buffers).collect()
     }
 
     /// One sentence for `explain`.
@@ -262,31 +269,32 @@ fn stored(format: TextureFormat) -> BindingType {
     }
 }
 
-fn draw_layout(device: &wgpu::Device) -> BindGroupLayout {
+/// With so many further buffers of counts.
+fn draw_layout(device: &wgpu::Device, more: usize) -> BindGroupLayout {
     let fragment = |ty| (ShaderStages::FRAGMENT, ty);
-    numbered::layout(
-        device,
-        &[
-            (ShaderStages::VERTEX_FRAGMENT, UNIFORM),
-            fragment(UNIFORM),
-            fragment(ATOMIC),
-            fragment(ATOMIC),
-            fragment(stored(TextureFormat::R32Uint)),
-            fragment(stored(TextureFormat::Rgba32Float)),
-        ],
-    )
+    let own: [_; LIST_BINDINGS as usize] = [
+        (ShaderStages::VERTEX_FRAGMENT, UNIFORM),
+        fragment(UNIFORM),
+        fragment(ATOMIC),
+        fragment(ATOMIC),
+        fragment(stored(TextureFormat::R32Uint)),
+        fragment(stored(TextureFormat::Rgba32Float)),
+    ];
+    numbered::layout(device, &[&own[..], &vec![fragment(ATOMIC); more]].concat())
 }
 
-fn scan_layout(device: &wgpu::Device) -> BindGroupLayout {
-    let all = [UNIFORM, ATOMIC, ATOMIC, stored(TextureFormat::R32Uint)];
-    numbered::layout(device, &all.map(|ty| (ShaderStages::COMPUTE, ty)))
+/// With so many further buffers of counts.
+fn scan_layout(device: &wgpu::Device, more: usize) -> BindGroupLayout {
+    let own: [_; SCAN_BINDINGS as usize] = [UNIFORM, ATOMIC, ATOMIC, stored(TextureFormat::R32Uint)];
+    let all = own.into_iter().chain(std::iter::repeat_n(ATOMIC, more));
+    numbered::layout(device, &all.map(|ty| (ShaderStages::COMPUTE, ty)).collect::<Vec<_>>())
 }
 
-fn compile_scan(device: &wgpu::Device, layout: &BindGroupLayout) -> ComputePipeline {
+fn compile_scan(device: &wgpu::Device, layout: &BindGroupLayout, splits: &Splits) -> ComputePipeline {
     device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
         label: Some("scan"),
         layout: Some(&numbered::pipeline_layout(device, &[Some(layout)])),
-        module: &numbered::module(device, shader::SCAN),
+        module: &numbered::module(device, &shader::scan(splits)),
         entry_point: Some("compute"),
         compilation_options: Default::default(),
         cache: None,

@@ -68,11 +68,12 @@ impl MemoryItem {
             lifetime: Lifetime::Kept,
         }
     }
-    /// A buffer with as many words of 4 bytes for each texel as `layers`.
-    pub(super) fn texels(name: &str, buffer: &wgpu::Buffer, size: Size) -> Self {
+
+    /// The same buffer, told as words of 4 bytes for each texel, as many as `layers`.
+    pub(super) fn texels(self, size: Size) -> Self {
         let Size { width, height } = size;
-        let layers = (buffer.size() / (4 * u64::from(width) * u64::from(height))) as u32;
-        Self { width, height, layers, ..Self::buffer(name, buffer) }
+        let layers = (self.bytes / (4 * u64::from(width) * u64::from(height))) as u32;
+        Self { width, height, layers, ..self }
     }
 }
 

@@ -8,7 +8,7 @@ use super::{
 use crate::{
     capabilities::Capabilities,
     light::{Size, View},
-    shader::{self, TrianglePass},
+    shader::{self, TrianglePass, split::Splits},
     technique::{Coverage, Technique},
 };
 use std::num::NonZeroU64;
@@ -29,6 +29,7 @@ pub(super) struct Numbered {
     size: Size,
     views: Buffer,
     stride: u64,
+    splits: Splits,
 }
 
 impl Numbered {
@@ -37,7 +38,7 @@ impl Numbered {
         technique: &dyn Technique,
         (size, views): (Size, u32),
         depth: CompareFunction,
-        layout: BindGroupLayout,
+        (layout, splits): (BindGroupLayout, Splits),
         pipelines: &Pipelines,
     ) -> Self {
         let alignment = u64::from(device.limits().min_uniform_buffer_offset_alignment);
@@ -45,7 +46,7 @@ impl Numbered {
         let uniforms = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
         let compiled = |spot| {
             let pass = TrianglePass::Pulled(Coverage::Touched, spot);
-            let shader = shader::triangles(technique, &Capabilities::of(device), None, pass);
+            let shader = shader::triangles(technique, &Capabilities::of(device), None, pass, &splits);
             pipelines.caster(&shader, &[], |device| compile(device, &shader, depth, &layout, &[]))
         };
         Self {
@@ -55,6 +56,7 @@ impl Numbered {
             views: buffer(device, "caster views", u64::from(views) * stride, uniforms),
             stride,
             layout,
+            splits,
         }
     }
 
@@ -66,7 +68,8 @@ impl Numbered {
         wgsl: &str,
         user: &[&BindGroupLayout],
     ) -> RenderPipeline {
-        let shader = shader::triangles(technique, &Capabilities::of(device), Some(wgsl), TrianglePass::Any);
+        let (device_can, pass) = (Capabilities::of(device), TrianglePass::Any);
+        let shader = shader::triangles(technique, &device_can, Some(wgsl), pass, &self.splits);
         compile(device, &shader, self.depth, &self.layout, user)
     }
 
@@ -80,6 +83,11 @@ impl Numbered {
             let bytes = CasterView::new(view, self.size, Coverage::Touched);
             queue.write_buffer(&self.views, i as u64 * self.stride, bytemuck::bytes_of(&bytes));
         }
+    }
+
+    /// How the arrays of group 0 are split.
+    pub(super) fn splits(&self) -> Splits {
+        self.splits
     }
 
     /// Of group 0.

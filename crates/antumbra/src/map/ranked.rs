@@ -8,17 +8,21 @@ use super::{
     Capacity, Probe,
     memory::{Lifetime, MemoryItem},
     numbered::{self, ATOMIC, Numbered, UNIFORM},
+    pieces::Pieces,
     pipelines::Pipelines,
 };
 use crate::{
     capabilities::Capabilities,
     light::{Size, View},
+    shader::split::{Split, Splits},
     technique::{Ranked, Technique},
 };
 use wgpu::{
     BindGroup, BindGroupLayout, Buffer, BufferUsages, CompareFunction, RenderPass, ShaderStages, TextureView,
 };
 
+/// Bytes of a key.
+const KEY: u64 = 4;
 /// Bytes of a triangle's corners.
 const CORNERS: u64 = 48;
 
@@ -32,19 +36,20 @@ pub(super) struct RankedSize {
 }
 
 impl RankedSize {
-    /// Bytes of the keys of a view.
-    fn view_bytes(&self) -> u64 {
-        4 * u64::from(self.size.width) * u64::from(self.size.height) * u64::from(self.keeps)
+    /// Keys of a view.
+    fn view_keys(&self) -> u64 {
+        u64::from(self.size.width) * u64::from(self.size.height) * u64::from(self.keeps)
     }
 
-    /// Bytes of all keys.
-    pub(super) fn key_bytes(&self) -> u64 {
-        self.view_bytes() * u64::from(self.views)
-    }
-
-    /// Bytes of all corners.
-    pub(super) fn corner_bytes(&self) -> u64 {
-        CORNERS * u64::from(self.capacity.triangles) * u64::from(self.views)
+    /// How keys and corners are split.
+    pub(super) fn splits(&self, limits: &wgpu::Limits) -> Splits {
+        let max = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
+        let views = u64::from(self.views);
+        Splits {
+            keys: Split::new(self.view_keys() * views, KEY, max),
+            corners: Split::new(u64::from(self.capacity.triangles) * views, CORNERS, max),
+            ..Splits::default()
+        }
     }
 }
 
@@ -64,10 +69,10 @@ pub(super) struct RankedTriangles {
     numbered: Numbered,
     extent: RankedSize,
     passes: Buffer,
-    keys: Buffer,
+    keys: Pieces,
     /// Of triangles whose corners are kept already, where fragments have to keep them.
     marks: Option<Buffer>,
-    corners: Buffer,
+    corners: Pieces,
     /// Per view.
     groups: Vec<BindGroup>,
 }
@@ -80,28 +85,28 @@ impl RankedTriangles {
         pipelines: &Pipelines,
     ) -> Self {
         let RankedSize { size, views, keeps, capacity } = extent;
+        let splits = extent.splits(&device.limits());
+        let layout = (layout(device, splits), splits);
         let numbered =
-            Numbered::new(device, technique, (size, views), CompareFunction::Less, layout(device), pipelines);
+            Numbered::new(device, technique, (size, views), CompareFunction::Less, layout, pipelines);
         let (triangles, bits) = (capacity.triangles, capacity.id_bits());
         let all: Vec<_> = (0..views).map(|view| RankedPass { view, keeps, triangles, bits }).collect();
         let passes = numbered.passes(device, "ranked passes", &all);
-        let storage = |label, bytes| {
-            let usage = BufferUsages::STORAGE | BufferUsages::COPY_DST | BufferUsages::COPY_SRC;
-            numbered::buffer(device, label, bytes, usage)
-        };
-        let keys = storage("ranked triangles", extent.key_bytes());
-        let marks = (!Capabilities::of(device).stores_from_vertices())
-            .then(|| storage("ranked marks", 4 * u64::from(triangles.div_ceil(32))));
-        let corners = storage("ranked corners", extent.corner_bytes());
+        let keys = Pieces::new(device, "ranked triangles", splits.keys, KEY);
+        let corners = Pieces::new(device, "ranked corners", splits.corners, CORNERS);
+        let marks = (!Capabilities::of(device).stores_from_vertices()).then(|| {
+            let bytes = 4 * u64::from(triangles.div_ceil(32));
+            let usage = BufferUsages::STORAGE | BufferUsages::COPY_DST;
+            numbered::buffer(device, "ranked marks", bytes, usage)
+        });
         let group = |view: u32| {
             let own = [
                 numbered.view(view),
                 numbered.slot(&passes, view, size_of::<RankedPass>() as u64),
-                keys.as_entire_binding(),
-                corners.as_entire_binding(),
             ];
             let marks = marks.as_ref().map(Buffer::as_entire_binding);
-            numbered::bind(device, numbered.layout(), own.into_iter().chain(marks))
+            let all = own.into_iter().chain(keys.bindings()).chain(corners.bindings()).chain(marks);
+            numbered::bind(device, numbered.layout(), all)
         };
         let groups = (0..views).map(group).collect();
         Self { numbered, extent, passes, keys, marks, corners, groups }
@@ -121,11 +126,8 @@ impl RankedTriangles {
         probe: &mut dyn Probe,
         draw: &mut impl FnMut(&View, &mut RenderPass<'_>),
     ) {
-        encoder.clear_buffer(
-            &self.keys,
-            index as u64 * self.extent.view_bytes(),
-            Some(self.extent.view_bytes()),
-        );
+        let (view_keys, index_of) = (self.extent.view_keys(), index as u64);
+        self.keys.clear(encoder, index_of * view_keys..(index_of + 1) * view_keys);
         if let Some(marks) = &self.marks {
             encoder.clear_buffer(marks, 0, None);
         }
@@ -140,8 +142,13 @@ impl RankedTriangles {
         )
     }
 
-    /// The buffer that a binding names.
-    pub(super) fn buffer(&self, ranked: Ranked) -> &Buffer {
+    /// How its arrays are split.
+    pub(super) fn splits(&self) -> Splits {
+        self.numbered.splits()
+    }
+
+    /// The buffers that a binding names.
+    pub(super) fn buffers(&self, ranked: Ranked) -> &Pieces {
         match ranked {
             Ranked::Keys => &self.keys,
             Ranked::Corners => &self.corners,
@@ -149,31 +156,25 @@ impl RankedTriangles {
     }
 
     pub(super) fn memory(&self) -> Vec<MemoryItem> {
-        let texels = MemoryItem::texels("ranked triangles", &self.keys, self.extent.size);
-        let buffers = [
-            ("ranked corners", &self.corners),
-            ("ranked views", self.numbered.views()),
-            ("ranked passes", &self.passes),
-        ];
+        let texels = self.keys.memory("ranked triangles").texels(self.extent.size);
+        let corners = self.corners.memory("ranked corners");
+        let buffers = [("ranked views", self.numbered.views()), ("ranked passes", &self.passes)];
         let marks = self.marks.as_ref().map(|marks| MemoryItem {
             lifetime: Lifetime::Transient,
             ..MemoryItem::buffer("ranked marks", marks)
         });
         let others = buffers.into_iter().map(|(name, buffer)| MemoryItem::buffer(name, buffer));
-        [texels].into_iter().chain(others).chain(marks).collect()
+        [texels, corners].into_iter().chain(others).chain(marks).collect()
     }
 }
 
-fn layout(device: &wgpu::Device) -> BindGroupLayout {
+fn layout(device: &wgpu::Device, splits: Splits) -> BindGroupLayout {
     let by_vertices = Capabilities::of(device).stores_from_vertices();
-    let fragment = |ty| (ShaderStages::FRAGMENT, ty);
-    let both = |ty| (ShaderStages::VERTEX_FRAGMENT, ty);
-    let types = [
-        both(UNIFORM),
-        both(UNIFORM),
-        fragment(ATOMIC),
-        (if by_vertices { ShaderStages::VERTEX } else { ShaderStages::FRAGMENT }, ATOMIC),
-        fragment(ATOMIC),
-    ];
-    numbered::layout(device, &types[..if by_vertices { 4 } else { 5 }])
+    let keeping = if by_vertices { ShaderStages::VERTEX } else { ShaderStages::FRAGMENT };
+    let views = [(ShaderStages::VERTEX_FRAGMENT, UNIFORM); 2];
+    let keys = (0..splits.keys.count()).map(|_| (ShaderStages::FRAGMENT, ATOMIC));
+    let corners = (0..splits.corners.count()).map(|_| (keeping, ATOMIC));
+    let marks = (!by_vertices).then_some((ShaderStages::FRAGMENT, ATOMIC));
+    let all: Vec<_> = views.into_iter().chain(keys).chain(corners).chain(marks).collect();
+    numbered::layout(device, &all)
 }

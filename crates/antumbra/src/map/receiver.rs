@@ -33,6 +33,8 @@ pub(super) fn group(
         bindings.iter().map(|binding| textures::sampler(device, *binding, filterable)).collect();
     let mut layout = vec![uniforms::layout_entry(0)];
     let mut group = vec![wgpu::BindGroupEntry { binding: 0, resource: uniforms.receiver() }];
+    // Further buffers of split arrays come behind all bindings.
+    let mut more = Vec::new();
     for (i, binding) in bindings.iter().enumerate() {
         let (ty, resource) = match binding {
             Binding::Depth => {
@@ -65,7 +67,10 @@ pub(super) fn group(
                     has_dynamic_offset: false,
                     min_binding_size: None,
                 };
-                (ty, ranked.buffer(*buffer).as_entire_binding())
+                let mut buffers = ranked.buffers(*buffer).bindings();
+                let Some(first) = buffers.next() else { continue };
+                more.extend(buffers.map(|resource| (ty, resource)));
+                (ty, first)
             }
             Binding::Sampler => {
                 let kind =
@@ -73,13 +78,11 @@ pub(super) fn group(
                 (BindingType::Sampler(kind), BindingResource::Sampler(&samplers[i]))
             }
         };
-        let binding = i as u32 + 1;
-        layout.push(wgpu::BindGroupLayoutEntry {
-            binding,
-            visibility: wgpu::ShaderStages::FRAGMENT | wgpu::ShaderStages::COMPUTE,
-            ty,
-            count: None,
-        });
+        layout.push(layout_entry(i as u32 + 1, ty));
+        group.push(wgpu::BindGroupEntry { binding: i as u32 + 1, resource });
+    }
+    for (binding, (ty, resource)) in (bindings.len() as u32 + 1..).zip(more) {
+        layout.push(layout_entry(binding, ty));
         group.push(wgpu::BindGroupEntry { binding, resource });
     }
     let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
@@ -92,4 +95,13 @@ pub(super) fn group(
         entries: &group,
     });
     (layout, bind_group)
+}
+
+fn layout_entry(binding: u32, ty: wgpu::BindingType) -> wgpu::BindGroupLayoutEntry {
+    wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::FRAGMENT | wgpu::ShaderStages::COMPUTE,
+        ty,
+        count: None,
+    }
 }

@@ -1,4 +1,4 @@
-use super::*;
+use super::{split::Split, *};
 use crate::{
     light::Size,
     pass::plan,
@@ -9,7 +9,15 @@ use naga::{
     valid::{Capabilities as Allowed, ValidationFlags, Validator},
 };
 
-const SIZE: MapSize = MapSize { views: 3, capacity: Capacity { triangles: 1000, triangles_per_texel: 4 } };
+const SIZE: MapSize = MapSize {
+    views: 3,
+    capacity: Capacity { triangles: 1000, triangles_per_texel: 4 },
+    splits: WHOLE,
+};
+const ONE: Split = Split { elements: 3000, each: 3000 };
+const WHOLE: Splits = Splits { keys: ONE, corners: ONE, counts: ONE };
+/// Arrays that are larger than bindings.
+const PARTS: Splits = Splits { keys: Split { elements: 3000, each: 1024 }, corners: ONE, counts: Split { elements: 3000, each: 2048 } };
 
 /// Everything and nothing of what devices may lack.
 fn devices() -> [Capabilities; 2] {
@@ -205,6 +213,22 @@ fn every_technique_validates_with_its_needs() {
     }
 }
 
+/// Each buffer of a split array has a binding of its own.
+#[test]
+fn split_arrays_validate() {
+    for device in devices() {
+        let dpm = parse("dpm").unwrap();
+        let module = validate(&receiver(dpm.as_ref(), &device, MapSize { splits: PARTS, ..SIZE }, 2).text()).unwrap();
+        let mut bound: Vec<u32> =
+            module.global_variables.iter().filter_map(|(_, v)| Some(v.binding.as_ref()?.binding)).collect();
+        bound.sort_unstable();
+        assert_eq!(bound, [0, 1, 2, 3, 4, 5]);
+        for splits in [WHOLE, PARTS] {
+            validate(&scan(&splits)).unwrap();
+        }
+    }
+}
+
 #[test]
 fn every_composed_receiver_and_pass_validates() {
     for device in devices() {
@@ -227,8 +251,9 @@ fn every_composed_receiver_and_pass_validates() {
                 let lists = matches!(technique.caster(), Caster::Lists | Caster::Ranked { .. });
                 let indexed = both.into_iter().filter(|_| !lists).map(Indexed);
                 let plain = pulled.chain(indexed).chain([Any]).map(|pass| (None, pass));
-                for (cutout, pass) in plain.chain([(Some(cutout), Any)]) {
-                    let text = triangles(technique.as_ref(), &device, cutout, pass);
+                let all = plain.chain([(Some(cutout), Any)]);
+                for ((cutout, pass), splits) in all.flat_map(|a| [(a, WHOLE), (a, PARTS)]) {
+                    let text = triangles(technique.as_ref(), &device, cutout, pass, &splits);
                     validate(&text).unwrap_or_else(|e| panic!("{spec}: {e}"));
                 }
             }

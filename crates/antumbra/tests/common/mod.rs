@@ -299,6 +299,12 @@ fn triangle_map(
 
 /// World-space triangles, three corners each, as casters.
 pub fn caster_mesh(gpu: &Gpu, corners: &[Vec3]) -> CasterMesh {
+    let [positions, indices] = caster_buffers(gpu, corners);
+    CasterMesh::new(&gpu.device, &positions, &indices, 0..corners.len() as u32 / 3, Mat4::IDENTITY).unwrap()
+}
+
+/// Their positions and indices.
+pub fn caster_buffers(gpu: &Gpu, corners: &[Vec3]) -> [wgpu::Buffer; 2] {
     let buffer = |bytes: &[u8]| {
         let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("test mesh"),
@@ -310,16 +316,7 @@ pub fn caster_mesh(gpu: &Gpu, corners: &[Vec3]) -> CasterMesh {
         buffer
     };
     let indices: Vec<u32> = (0..corners.len() as u32).collect();
-    let triangles = 0..corners.len() as u32 / 3;
-    let positions = buffer(bytemuck::cast_slice(corners));
-    CasterMesh::new(
-        &gpu.device,
-        &positions,
-        &buffer(bytemuck::cast_slice(&indices)),
-        triangles,
-        Mat4::IDENTITY,
-    )
-    .unwrap()
+    [buffer(bytemuck::cast_slice(corners)), buffer(bytemuck::cast_slice(&indices))]
 }
 
 /// `shadow_visibility` at receivers.

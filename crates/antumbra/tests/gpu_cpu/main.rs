@@ -14,6 +14,7 @@ mod lookups;
 mod ranked;
 mod receiver;
 mod silhouettes;
+mod split;
 mod stored;
 
 use antumbra::{Capabilities, Size, Technique, technique, technique::Encode};
@@ -184,6 +185,7 @@ fn main() {
     trials.add("splines weigh centres", geometry::splines_weigh_centres);
     trials.add("every touched texel is drawn", geometry::every_touched_texel_is_drawn);
     trials.add("lists hold all triangles", lists::lists_hold_all_triangles);
+    trials.add("split buffers answer the same", split::split_buffers_answer_the_same);
     trials.add("lists beyond the capacity are cut", lists::lists_beyond_the_capacity_are_cut);
     trials.add("lists tell their memory", lists::lists_tell_their_memory);
     trials.add("the first triangles are kept", ranked::the_first_are_kept);
