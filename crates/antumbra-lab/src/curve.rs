@@ -64,7 +64,7 @@ fn answers(
                 pass.draw(0..3, 0..1);
             });
         }
-        Caster::Triangles(_) | Caster::Lists { .. } | Caster::Ranked { .. } => {
+        Caster::Triangles(_) | Caster::Lists | Caster::Ranked { .. } => {
             let triangle = triangle(gpu, caster)?;
             shadows.encode(&mut encoder, |view, pass| triangle.draw(view, pass));
         }

@@ -135,8 +135,8 @@ pub fn measure(gpu: &Gpu, request: &Request, progress: &dyn Progress) -> Result<
         compare::aim(gpu, &mut stage, &mut contestants, &view)?;
         texels.push(view.texel_world);
         for (contestant, invalid) in contestants.iter_mut().zip(&mut invalid) {
-            let spec = || technique::spec(contestant.shadows.technique());
-            contestant.draw_maps(gpu, &stage).with_context(spec)?;
+            let drawn = contestant.draw_maps(gpu, &stage);
+            drawn.with_context(|| technique::spec(contestant.shadows.technique()))?;
             *invalid = invalid.take().or_else(|| contestant.invalid());
         }
         let camera_rests = before.as_ref().is_some_and(|(f, _)| f.camera == frame.camera);

@@ -111,5 +111,5 @@ fn measure(
         map_size,
         resolution,
     };
-    bias::study(&gpu, &request, &Silent).unwrap()
+    bias::study(&gpu, &request, &Silent).unwrap().rows
 }

@@ -42,7 +42,8 @@ fn main() {
     });
     trials.add("what is refused is left out, and the others stay", |_| {
         let entered = enter(&opened(), "contact", few(17), &["dpm", "hard", "spsm"]).unwrap();
-        let kept: Vec<_> = entered.contestants.iter().map(|c| (c.entry, c.shadows.technique().page().name)).collect();
+        let kept: Vec<_> =
+            entered.contestants.iter().map(|c| (c.entry, c.shadows.technique().page().name)).collect();
         assert_eq!(kept, [(1, "hard"), (2, "spsm")]);
         let [left_out] = &entered.left_out[..] else { panic!("{:?}", entered.left_out) };
         assert_eq!(left_out.spec, "dpm");

@@ -131,8 +131,8 @@ pub use filter::{Filter, Sampling, Values};
 pub use kernel::{Kernel, Weights};
 pub use light::{Bounds, Fit, Light, Size, View};
 pub use map::{
-    Capacity, CasterMesh, DEPTH_FORMAT, Lifetime, Memory, MemoryItem, MeshPart, NoProbe, Options, Pipelines, Probe,
-    ShadowMap, TooManyViews,
+    Capacity, CasterMesh, DEPTH_FORMAT, Lifetime, Memory, MemoryItem, MeshPart, NoProbe, Options, Pipelines,
+    Probe, ShadowMap, TooManyViews,
 };
 pub use parameter::{Choice, Field, Parameter};
 pub use precision::Precision;

@@ -229,7 +229,10 @@ fn triangles(gpu: &Gpu) {
         // In bindings of 1024 bytes: 5 for keys, 1 for corners, and 3 others.
         let dpm = |keeps| Dpm { keeps, ..Dpm::default() };
         let message = refusal(gpu, &dpm(4), of(17, 1, 1));
-        says(&message, &["dpm", "9 storage buffers in a stage (8 are possible)", "1024 bytes", "Options::capacity"]);
+        says(
+            &message,
+            &["dpm", "9 storage buffers in a stage (8 are possible)", "1024 bytes", "Options::capacity"],
+        );
         let message = refusal(gpu, &dpm(1), of(4, 5 * 21 + 1, 1));
         says(&message, &["dpm", "10 storage buffers"]);
         let message = refusal(gpu, &Exact, of(40, 1, 1));

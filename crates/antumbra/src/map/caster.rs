@@ -89,8 +89,6 @@ pub(super) fn number(indices: Range<u32>) -> u32 {
     first.min(u32::MAX - 1)
 }
 
-
-
 /// 1 for a spot's view, else 0.
 pub(super) fn perspective(view: &View) -> u32 {
     u32::from(view.near_over_far < 1.0)

@@ -57,8 +57,7 @@ impl ListSize {
 
     /// Entries of a view.
     fn entries(&self) -> u32 {
-        (self.texels() * u64::from(self.capacity.triangles_per_texel)).min(u64::from(u32::MAX))
-            as u32
+        (self.texels() * u64::from(self.capacity.triangles_per_texel)).min(u64::from(u32::MAX)) as u32
     }
 
     /// Layers of a view's numbers.
@@ -106,8 +105,7 @@ impl Lists {
         let splits = extent.splits(&device.limits());
         let more = splits.counts.count() as usize - 1;
         let layout = (draw_layout(device, more), splits);
-        let numbered =
-            Numbered::new(device, technique, draws, CompareFunction::Always, layout, pipelines);
+        let numbered = Numbered::new(device, technique, draws, CompareFunction::Always, layout, pipelines);
         let pass = |slot: u32| {
             let (entries, triangles) = (extent.entries(), extent.capacity.triangles);
             ListPass { view: slot / 2, fills: slot % 2, entries, triangles }
@@ -155,7 +153,8 @@ impl Lists {
                 wgpu::BindingResource::TextureView(&numbers),
                 wgpu::BindingResource::TextureView(&corners),
             ];
-            let all = [numbered.view(view), pass(view, fills)].into_iter().chain(first).chain(own).chain(more);
+            let all =
+                [numbered.view(view), pass(view, fills)].into_iter().chain(first).chain(own).chain(more);
             numbered::bind(device, numbered.layout(), all)
         };
         let scan = |view: u32| {

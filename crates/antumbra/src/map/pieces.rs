@@ -22,11 +22,6 @@ impl Pieces {
         Self { split, bytes, buffers: split.sizes().map(buffer).collect() }
     }
 
-    /// Number of buffers.
-    pub(super) fn count(&self) -> u32 {
-        self.split.count()
-    }
-
     /// What shaders bind, in order.
     pub(super) fn bindings(&self) -> impl Iterator<Item = BindingResource<'_>> {
         self.buffers.iter().map(Buffer::as_entire_binding)

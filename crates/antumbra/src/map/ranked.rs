@@ -100,10 +100,7 @@ impl RankedTriangles {
             numbered::buffer(device, "ranked marks", bytes, usage)
         });
         let group = |view: u32| {
-            let own = [
-                numbered.view(view),
-                numbered.slot(&passes, view, size_of::<RankedPass>() as u64),
-            ];
+            let own = [numbered.view(view), numbered.slot(&passes, view, size_of::<RankedPass>() as u64)];
             let marks = marks.as_ref().map(Buffer::as_entire_binding);
             let all = own.into_iter().chain(keys.bindings()).chain(corners.bindings()).chain(marks);
             numbered::bind(device, numbered.layout(), all)

@@ -9,15 +9,16 @@ use naga::{
     valid::{Capabilities as Allowed, ValidationFlags, Validator},
 };
 
-const SIZE: MapSize = MapSize {
-    views: 3,
-    capacity: Capacity { triangles: 1000, triangles_per_texel: 4 },
-    splits: WHOLE,
-};
+const SIZE: MapSize =
+    MapSize { views: 3, capacity: Capacity { triangles: 1000, triangles_per_texel: 4 }, splits: WHOLE };
 const ONE: Split = Split { elements: 3000, each: 3000 };
 const WHOLE: Splits = Splits { keys: ONE, corners: ONE, counts: ONE };
 /// Arrays that are larger than bindings.
-const PARTS: Splits = Splits { keys: Split { elements: 3000, each: 1024 }, corners: ONE, counts: Split { elements: 3000, each: 2048 } };
+const PARTS: Splits = Splits {
+    keys: Split { elements: 3000, each: 1024 },
+    corners: ONE,
+    counts: Split { elements: 3000, each: 2048 },
+};
 
 /// Everything and nothing of what devices may lack.
 fn devices() -> [Capabilities; 2] {
@@ -218,7 +219,8 @@ fn every_technique_validates_with_its_needs() {
 fn split_arrays_validate() {
     for device in devices() {
         let dpm = parse("dpm").unwrap();
-        let module = validate(&receiver(dpm.as_ref(), &device, MapSize { splits: PARTS, ..SIZE }, 2).text()).unwrap();
+        let module =
+            validate(&receiver(dpm.as_ref(), &device, MapSize { splits: PARTS, ..SIZE }, 2).text()).unwrap();
         let mut bound: Vec<u32> =
             module.global_variables.iter().filter_map(|(_, v)| Some(v.binding.as_ref()?.binding)).collect();
         bound.sort_unstable();

@@ -27,7 +27,8 @@ pub(crate) fn split_buffers_answer_the_same(gpu: &Gpu) {
             let mut shadows = ShadowMap::new(&gpu.device, technique.as_ref(), options.clone()).unwrap();
             shadows.prepare(&gpu.queue, &[view(MAP)]).unwrap();
             let [positions, indices] = caster_buffers(gpu, &corners);
-            let mesh = CasterMesh::in_parts(&gpu.device, &positions, &indices, parts, Mat4::IDENTITY).unwrap();
+            let mesh =
+                CasterMesh::in_parts(&gpu.device, &positions, &indices, parts, Mat4::IDENTITY).unwrap();
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
             shadows.encode(&mut encoder, |view, pass| mesh.draw(view, pass));
             gpu.queue.submit([encoder.finish()]);
@@ -38,10 +39,11 @@ pub(crate) fn split_buffers_answer_the_same(gpu: &Gpu) {
         let split = small.checked(|gpu| answers(gpu, &[part(0..110), part(110..TRIANGLES)]));
         assert_eq!(whole, split, "{spec}");
         let lit = whole.iter().filter(|v| **v > 0.5).count();
-        assert!((40..216).contains(&lit), "{spec}: {lit} of {} are lit", whole.len());
+        assert!((26..230).contains(&lit), "{spec}: {lit} of {} are lit", whole.len());
     }
     let [positions, indices] = caster_buffers(&small, &corners);
-    let whole = CasterMesh::new(&small.device, &positions, &indices, 0..TRIANGLES, Mat4::IDENTITY).unwrap_err();
+    let whole =
+        CasterMesh::new(&small.device, &positions, &indices, 0..TRIANGLES, Mat4::IDENTITY).unwrap_err();
     assert_eq!(whole, MeshError::Bytes { what: "positions", bytes: 36 * 240, max: BINDING });
 }
 
@@ -53,5 +55,5 @@ fn part(triangles: std::ops::Range<u32>) -> MeshPart {
 fn receivers() -> Vec<Receiver> {
     let mut random = Random::new(42);
     let mut place = || Vec2::new(random.unit(), random.unit());
-    (0..4 * BATCH).map(|_| place()).map(|uv| Receiver::point(uv.x, uv.y, 0.6)).collect()
+    (0..4 * BATCH).map(|_| place()).map(|uv| Receiver::point(uv.x, uv.y, 0.5)).collect()
 }
