@@ -1,5 +1,6 @@
 //! The command line.
 
+use crate::completion;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use std::path::PathBuf;
@@ -41,7 +42,7 @@ pub(crate) enum Command {
     #[command(after_help = REPRODUCE_EXAMPLES)]
     Reproduce(Reproduce),
     /// List techniques with their parameters, ranges, defaults and papers
-    Techniques(List),
+    Techniques(Techniques),
     /// List the built-in scenes, or write one as a file
     #[command(args_conflicts_with_subcommands = true)]
     Scenes(Scenes),
@@ -109,7 +110,7 @@ What was measured is kept in the folder: run the same command again after an int
 #[derive(Debug, Clone, Args)]
 pub(crate) struct SceneArguments {
     /// A .glb, .gltf or .obj file, or the name of a built-in scene (see `antumbra scenes`)
-    #[arg(default_value = "fence")]
+    #[arg(default_value = "fence", value_parser = completion::SCENES, hide_possible_values = true)]
     pub(crate) scene: String,
     /// Seed of a built-in scene
     #[arg(long, default_value_t = 1)]
@@ -141,8 +142,9 @@ pub(crate) struct SceneArguments {
 pub(crate) struct Compare {
     #[command(flatten)]
     pub(crate) scene: SceneArguments,
-    /// Techniques with settings (esm.c=60,kernel=7), or all, all-comparison, all-basis
-    #[arg(long, num_args = 1.., default_value = "all", value_name = "TECHNIQUE")]
+    /// Techniques with settings (esm.c=60,kernel=7), or all, all-comparison, all-basis, all-geometry
+    #[arg(short, long, alias = "technique", num_args = 1.., default_value = "all", value_name = "TECHNIQUE",
+        value_parser = completion::TECHNIQUES, hide_possible_values = true)]
     pub(crate) techniques: Vec<String>,
     /// Folder of the report; an earlier report there is replaced
     #[arg(short, long, default_value = "report", value_name = "FOLDER")]
@@ -163,7 +165,8 @@ pub(crate) struct Render {
     #[command(flatten)]
     pub(crate) scene: SceneArguments,
     /// A technique with settings, or `truth` for ray-traced hard shadows
-    #[arg(short, long, default_value = "esm", value_name = "TECHNIQUE")]
+    #[arg(short, long, alias = "techniques", default_value = "esm", value_name = "TECHNIQUE",
+        value_parser = completion::TECHNIQUE_OR_TRUTH, hide_possible_values = true)]
     pub(crate) technique: String,
     /// auto, none, or terms such as constant_texels=1,receiver_plane=1 (see `antumbra bias --help`)
     #[arg(long, default_value = "auto", value_name = "BIAS")]
@@ -193,8 +196,9 @@ pub(crate) struct Flicker {
     #[command(flatten)]
     pub(crate) scene: SceneArguments,
     /// Techniques with settings, or all, all-comparison, all-basis, all-geometry; ratios need hard
-    #[arg(long, num_args = 1.., default_values_t = ["hard", "pcf", "vsm", "esm", "csm", "spsm"].map(String::from),
-        value_name = "TECHNIQUE")]
+    #[arg(short, long, alias = "technique", num_args = 1..,
+        default_values = ["hard", "pcf", "vsm", "esm", "csm", "spsm"], value_name = "TECHNIQUE",
+        value_parser = completion::TECHNIQUES, hide_possible_values = true)]
     pub(crate) techniques: Vec<String>,
     /// What moves
     #[arg(long, value_enum, default_value_t = Motion::Both)]
@@ -234,8 +238,9 @@ pub(crate) enum Motion {
 pub(crate) struct Bench {
     #[command(flatten)]
     pub(crate) scene: SceneArguments,
-    /// Techniques with settings, or all, all-comparison, all-basis
-    #[arg(long, num_args = 1.., default_value = "all", value_name = "TECHNIQUE")]
+    /// Techniques with settings, or all, all-comparison, all-basis, all-geometry
+    #[arg(short, long, alias = "technique", num_args = 1.., default_value = "all", value_name = "TECHNIQUE",
+        value_parser = completion::TECHNIQUES, hide_possible_values = true)]
     pub(crate) techniques: Vec<String>,
     /// Frames that are timed, per technique
     #[arg(long, default_value_t = 15)]
@@ -248,10 +253,11 @@ pub(crate) struct Bench {
 #[derive(Debug, Args)]
 pub(crate) struct Bias {
     /// .glb, .gltf or .obj files, or names of built-in scenes
-    #[arg(required = true, value_name = "SCENE")]
+    #[arg(required = true, value_name = "SCENE", value_parser = completion::SCENES, hide_possible_values = true)]
     pub(crate) scenes: Vec<String>,
-    /// Techniques with settings, or all, all-comparison, all-basis
-    #[arg(long, num_args = 1.., default_values = ["hard", "pcf"], value_name = "TECHNIQUE")]
+    /// Techniques with settings, or all, all-comparison, all-basis, all-geometry
+    #[arg(short, long, alias = "technique", num_args = 1.., default_values = ["hard", "pcf"], value_name = "TECHNIQUE",
+        value_parser = completion::TECHNIQUES, hide_possible_values = true)]
     pub(crate) techniques: Vec<String>,
     /// The biases that each of them is given
     #[arg(long, num_args = 1.., default_values = SETTINGS, value_name = "BIAS")]
@@ -302,7 +308,8 @@ pub(crate) struct Kernels {
     #[arg(long, num_args = 1.., default_values_t = [2, 3, 4, 5, 7, 9, 11, 13, 15, 16], value_name = "TEXELS")]
     pub(crate) kernels: Vec<u32>,
     /// Techniques with settings
-    #[arg(long, num_args = 1.., default_values = ["pcf", "pcf.taps=bilinear", "esm"], value_name = "TECHNIQUE")]
+    #[arg(short, long, alias = "technique", num_args = 1.., default_values = ["pcf", "pcf.taps=bilinear", "esm"], value_name = "TECHNIQUE",
+        value_parser = completion::TECHNIQUES, hide_possible_values = true)]
     pub(crate) techniques: Vec<String>,
     /// Frames that are timed, per technique
     #[arg(long, default_value_t = 5)]
@@ -318,7 +325,8 @@ pub(crate) struct Kernels {
 #[derive(Debug, Args)]
 pub(crate) struct Curve {
     /// Techniques with settings, or all, all-comparison, all-basis; a / begins a new panel
-    #[arg(required = true, value_name = "TECHNIQUE")]
+    #[arg(required = true, value_name = "TECHNIQUE", value_parser = completion::TECHNIQUES,
+        hide_possible_values = true)]
     pub(crate) techniques: Vec<String>,
     /// From and to how far the receiver lies behind the caster (d − z), as shares of the light's depth
     /// range
@@ -343,7 +351,8 @@ pub(crate) struct Maps {
     #[command(flatten)]
     pub(crate) scene: SceneArguments,
     /// A technique with settings
-    #[arg(short, long, default_value = "csm", value_name = "TECHNIQUE")]
+    #[arg(short, long, alias = "techniques", default_value = "csm", value_name = "TECHNIQUE",
+        value_parser = completion::TECHNIQUES, hide_possible_values = true)]
     pub(crate) technique: String,
     /// Mip level, 0 the finest
     #[arg(long, default_value_t = 0)]
@@ -359,7 +368,8 @@ pub(crate) struct Maps {
 #[derive(Debug, Args)]
 pub(crate) struct Reproduce {
     /// A figure or table (csm/figure-9), a source (csm), or all
-    #[arg(required_unless_present = "list", value_name = "TARGET")]
+    #[arg(required_unless_present = "list", value_name = "TARGET", value_parser = completion::TARGETS,
+        hide_possible_values = true)]
     pub(crate) targets: Vec<String>,
     /// Show every target with the time it takes
     #[arg(long)]
@@ -393,12 +403,22 @@ pub(crate) enum SceneAction {
 #[derive(Debug, Args)]
 pub(crate) struct Export {
     /// The name of a built-in scene, or a .glb, .gltf or .obj file
+    #[arg(value_parser = completion::SCENES, hide_possible_values = true)]
     pub(crate) scene: String,
     /// The .glb file; an earlier one is replaced
     pub(crate) output: PathBuf,
     /// Seed of a built-in scene
     #[arg(long, default_value_t = 1)]
     pub(crate) seed: u64,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Techniques {
+    /// Names of techniques; all if none is given
+    #[arg(value_name = "TECHNIQUE", value_parser = completion::TECHNIQUES, hide_possible_values = true)]
+    pub(crate) names: Vec<String>,
+    #[command(flatten)]
+    pub(crate) list: List,
 }
 
 #[derive(Debug, Args)]

@@ -2,12 +2,11 @@
 
 use crate::{
     arguments::{Arguments, Command, SceneAction},
-    names,
+    completion, names,
 };
 use antumbra::SettingError;
 use antumbra_lab::results::LeftOut;
 use anyhow::Result;
-use clap::CommandFactory;
 use std::io::Write;
 
 mod bench;
@@ -35,16 +34,14 @@ pub(crate) fn run(arguments: Arguments) -> Result<()> {
         Command::Curve(arguments) => curve::run(&arguments),
         Command::Maps(arguments) => maps::run(&arguments),
         Command::Reproduce(arguments) => reproduce::run(&arguments),
-        Command::Techniques(arguments) => info::techniques(arguments.json),
+        Command::Techniques(arguments) => info::techniques(&arguments.names, arguments.list.json),
         Command::Scenes(arguments) => match arguments.action {
             Some(SceneAction::Export(arguments)) => export::run(&arguments),
             None => info::scenes(arguments.list.json),
         },
         Command::Info(arguments) => info::adapter(arguments.json),
         Command::Completions { shell } => {
-            let mut script = Vec::new();
-            clap_complete::generate(shell, &mut Arguments::command(), "antumbra", &mut script);
-            Ok(std::io::stdout().write_all(&script)?)
+            Ok(std::io::stdout().write_all(completion::script(shell).as_bytes())?)
         }
     }
 }

@@ -2,10 +2,12 @@
 
 mod arguments;
 mod commands;
+mod completion;
 mod names;
 mod output;
 mod progress;
 mod scene;
+mod techniques;
 mod views;
 
 use clap::Parser;

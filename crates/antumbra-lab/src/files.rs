@@ -95,20 +95,41 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
 /// was and nothing is left beside it.
 pub fn write_folder<E: From<FileError>>(
     out: &Path,
-    fill: impl FnOnce(&Path) -> Result<(), E>,
+    fill: impl FnOnce(&Folder<'_>) -> Result<(), E>,
 ) -> Result<PathBuf, E> {
     // Through links and "..", so that it is the folder that is replaced and not a link to it.
     let out = if out.exists() { out.canonicalize().map_err(failed("open", out))? } else { out.to_owned() };
     check_folder(&out)?;
     let partial = beside(&out, "partial")?;
     create_parent(&out)?;
-    fs::create_dir(&partial).map_err(failed("create", &partial))?;
-    let result = fill(&partial).and_then(|()| Ok(put_in_place(&partial, &out)?));
+    fs::create_dir(&partial).map_err(failed("create", &out))?;
+    let folder = Folder { partial: &partial, out: &out };
+    let result = fill(&folder).and_then(|()| Ok(put_in_place(&partial, &out)?));
     if result.is_err() {
         // As above: the first error is the one to tell.
         let _ = fs::remove_dir_all(&partial);
     }
     result.map(|()| out)
+}
+
+/// A folder that [`write_folder`] makes, while it is filled.
+#[derive(Debug)]
+pub struct Folder<'a> {
+    partial: &'a Path,
+    out: &'a Path,
+}
+
+impl Folder<'_> {
+    /// Writes a file of the folder, whole or not at all.
+    ///
+    /// # Errors
+    /// [`FileError::Io`], which names the file by the place where it was going to be.
+    pub fn write(&self, name: &str, bytes: &[u8]) -> Result<(), FileError> {
+        write_atomically(&self.partial.join(name), bytes).map_err(|error| match error {
+            FileError::Io { verb, source, .. } => FileError::Io { verb, path: self.out.join(name), source },
+            other => other,
+        })
+    }
 }
 
 fn put_in_place(partial: &Path, out: &Path) -> Result<(), FileError> {
@@ -123,6 +144,8 @@ fn put_in_place(partial: &Path, out: &Path) -> Result<(), FileError> {
         fs::rename(&old, out).map_err(failed("restore", out))?;
         return Err(failed("write", out)(error));
     }
+    // The new folder is there; what cannot be removed of the old one is told by its temporary name, which
+    // is where it is.
     fs::remove_dir_all(&old).map_err(failed("remove", &old))
 }
 

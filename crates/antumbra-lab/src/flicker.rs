@@ -126,7 +126,7 @@ pub fn measure(gpu: &Gpu, request: &Request, progress: &dyn Progress) -> Result<
     let mut before: Option<(Frame, Moment)> = None;
     let mut texels: Vec<f32> = Vec::new();
     let mut tracing = Duration::ZERO;
-    progress.step(&format!("{} frames", frames.len()));
+    progress.step(&format!("frames of the path: {}", frames.len()));
     for (number, frame) in frames.iter().enumerate() {
         let at = || format!("frame {number} of the path");
         let maps: Vec<&ShadowMap> = contestants.iter().map(|c| &c.shadows).collect();

@@ -21,6 +21,12 @@ pub struct Gpu {
 const OPTIONAL: wgpu::Features = Capabilities::OPTIONAL_FEATURES.union(wgpu::Features::TIMESTAMP_QUERY);
 
 impl Gpu {
+    /// Whether the adapter is a driver that runs on the processor.
+    #[must_use]
+    pub fn is_software(&self) -> bool {
+        self.info.device_type == wgpu::DeviceType::Cpu
+    }
+
     /// The adapter that wgpu prefers.
     ///
     /// # Errors

@@ -84,11 +84,11 @@ pub fn write(
     let json = listed.to_json()?;
     files::write_folder(out_dir, |folder| {
         for (name, bytes) in images {
-            files::write_atomically(&folder.join(name), bytes)?;
+            folder.write(name, bytes)?;
         }
-        files::write_atomically(&folder.join("results.csv"), results.csv().as_bytes())?;
-        files::write_atomically(&folder.join("results.json"), json.as_bytes())?;
-        files::write_atomically(&folder.join("index.html"), page.as_bytes())?;
+        folder.write("results.csv", results.csv().as_bytes())?;
+        folder.write("results.json", json.as_bytes())?;
+        folder.write("index.html", page.as_bytes())?;
         Ok(())
     })
 }

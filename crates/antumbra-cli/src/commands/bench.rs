@@ -1,7 +1,7 @@
 //! `antumbra bench`: times only.
 
 use super::table;
-use crate::{arguments::Bench, progress::Bar, scene};
+use crate::{arguments::Bench, progress::Bar, scene, techniques};
 use antumbra::technique;
 use antumbra_lab::{
     compare::{self, Contestant, Entered, Progress},
@@ -24,7 +24,7 @@ pub(crate) fn run(arguments: &Bench) -> Result<()> {
         bail!("--rounds 0: at least 1 frame has to be timed");
     }
     scene::check(&arguments.scene)?;
-    let techniques = compare::techniques(&arguments.techniques, arguments.scene.kernel)?;
+    let techniques = techniques::read(&arguments.techniques, arguments.scene.kernel)?;
     let setting = scene::load(&arguments.scene)?;
     let gpu = Gpu::new()?;
     let mut stage = Stage::new(&gpu, &setting.geometry, &setting.camera, &setting.light, setting.resolution)?;
@@ -35,7 +35,7 @@ pub(crate) fn run(arguments: &Bench) -> Result<()> {
     let unshadowed = Lookup::unshadowed(&gpu, &stage);
     let mut entrants = vec![Entrant { shadows: None, lookup: &unshadowed }];
     entrants.extend(contestants.iter().map(Contestant::entrant));
-    let bar = Bar::new();
+    let bar = Bar::new([("time", f64::from(arguments.rounds)), ("truth", 2.0)]);
     bar.step("time");
     let times = timing::race(&gpu, &stage, &lighting, &entrants, arguments.rounds, &|s| bar.share(s))?;
     bar.step("truth");

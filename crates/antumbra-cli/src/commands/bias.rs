@@ -4,11 +4,10 @@ use super::table;
 use crate::{
     arguments::{Bias, SceneArguments},
     progress::Bar,
-    scene,
+    scene, techniques,
 };
 use antumbra_lab::{
     bias::{self, Request},
-    compare,
     gpu::Gpu,
 };
 use anyhow::Result;
@@ -27,7 +26,7 @@ pub(crate) fn run(arguments: &Bias) -> Result<()> {
     };
     let scenes: Vec<SceneArguments> = arguments.scenes.iter().map(scene).collect();
     scenes.iter().try_for_each(scene::check)?;
-    let techniques = compare::techniques(&arguments.techniques, arguments.kernel)?;
+    let techniques = techniques::read(&arguments.techniques, arguments.kernel)?;
     let settings: Vec<_> = arguments.settings.iter().map(|text| text.parse()).collect::<Result<_, _>>()?;
     let gpu = Gpu::new()?;
     let out = &mut io::stdout();
@@ -44,7 +43,7 @@ pub(crate) fn run(arguments: &Bias) -> Result<()> {
             resolution: setting.resolution,
         };
         let bias::Study { rows, left_out } = {
-            let bar = Bar::new();
+            let bar = Bar::new([("upload", 1.0), ("truth", 8.0), ("render", 6.0)]);
             bias::study(&gpu, &request, &bar)?
         };
         super::note_left_out(&left_out);

@@ -1,7 +1,11 @@
 //! `antumbra compare`.
 
 use super::table;
-use crate::{arguments::Compare, progress::Bar, scene};
+use crate::{
+    arguments::Compare,
+    progress::{self, Bar},
+    scene, techniques,
+};
 use antumbra_lab::{
     compare::{self, Request},
     files,
@@ -21,7 +25,7 @@ pub(crate) fn run(arguments: &Compare) -> Result<()> {
     }
     scene::check(&arguments.scene)?;
     files::check_folder(&arguments.output)?;
-    let techniques = compare::techniques(&arguments.techniques, arguments.scene.kernel)?;
+    let techniques = techniques::read(&arguments.techniques, arguments.scene.kernel)?;
     let setting = scene::load(&arguments.scene)?;
     let gpu = Gpu::new()?;
     let request = Request {
@@ -38,7 +42,9 @@ pub(crate) fn run(arguments: &Compare) -> Result<()> {
         command: super::command_given(),
     };
     let comparison = {
-        let bar = Bar::new();
+        let work = (request.techniques.len(), request.rounds);
+        let phases = progress::comparison(&gpu, request.resolution, (request.kernel, request.grid), work);
+        let bar = Bar::new(phases);
         compare::compare(&gpu, &request, &bar)?
     };
     let folder = report::write(&comparison.results, &comparison.images, &arguments.output)?;

@@ -4,10 +4,10 @@ use super::table;
 use crate::{
     arguments::{Flicker, Motion},
     progress::Bar,
-    scene,
+    scene, techniques,
 };
 use antumbra_lab::{
-    compare, files,
+    files,
     flicker::{self, Measured, Promise, Request, Results},
     gpu::Gpu,
     motion::{BadFrameCount, Path},
@@ -27,7 +27,7 @@ pub(crate) fn run(arguments: &Flicker) -> Result<()> {
     }
     scene::check(&arguments.scene)?;
     files::check_folder(&arguments.output)?;
-    let techniques = compare::techniques(&arguments.techniques, arguments.scene.kernel)?;
+    let techniques = techniques::read(&arguments.techniques, arguments.scene.kernel)?;
     let setting = scene::load(&arguments.scene)?;
     let shorter = setting.resolution[0].min(setting.resolution[1]);
     if !(1..=shorter).contains(&arguments.stride) {
@@ -51,7 +51,7 @@ pub(crate) fn run(arguments: &Flicker) -> Result<()> {
         command: super::command_given(),
     };
     let outcome = {
-        let bar = Bar::new();
+        let bar = Bar::new([("upload", 1.0), ("frames", f64::from(arguments.frames)), ("pictures", 2.0)]);
         flicker::measure(&gpu, &request, &bar)?
     };
     let folder = flicker::write(&outcome, &arguments.output)?;

@@ -1,17 +1,18 @@
 //! `antumbra techniques`, `scenes` and `info`.
 
 use super::table;
-use antumbra::{ShadowMap, Size, technique};
+use antumbra::{Filter, ShadowMap, Size, technique};
 use antumbra_lab::{compare, gpu::Gpu};
 use antumbra_scene::procedural;
 use anyhow::Result;
 use serde_json::json;
 use std::io::{self, Write};
 
-pub(crate) fn techniques(as_json: bool) -> Result<()> {
+pub(crate) fn techniques(names: &[String], as_json: bool) -> Result<()> {
     let out = &mut io::stdout();
     let mut list = Vec::new();
-    for mut technique in technique::all() {
+    let all = if names.is_empty() { &["all".to_string()] } else { names };
+    for mut technique in compare::techniques(all, Filter::default().kernel)? {
         let page = technique.page();
         let parameters = technique.parameters();
         if as_json {

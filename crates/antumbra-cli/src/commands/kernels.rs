@@ -3,8 +3,8 @@
 use super::table;
 use crate::{
     arguments::{Kernels, SceneArguments},
-    progress::Bar,
-    scene,
+    progress::{self, Bar},
+    scene, techniques,
 };
 use antumbra_lab::{
     compare::{self, Request},
@@ -95,22 +95,26 @@ pub(crate) fn run(arguments: &Kernels) -> Result<()> {
     }
     let mut rows = Vec::new();
     // Three texels suit every technique: what is refused here is wrong.
-    compare::techniques(&arguments.techniques, 3)?;
+    techniques::read(&arguments.techniques, 3)?;
     for &kernel in &arguments.kernels {
         scene::check(&SceneArguments { kernel, ..arguments.scene.clone() })?;
     }
     let setting = scene::load(&arguments.scene)?;
     let gpu = Gpu::new()?;
-    for &kernel in &arguments.kernels {
+    let widest = arguments.kernels.iter().copied().max().unwrap_or(1);
+    let work = (arguments.techniques.len(), arguments.rounds);
+    let bar = Bar::new(progress::comparison(&gpu, setting.resolution, (widest, arguments.grid), work));
+    for (part, &kernel) in arguments.kernels.iter().enumerate() {
+        bar.part(part, arguments.kernels.len());
         // Some kernels are odd only.
-        let takes = |spec: &&String| compare::techniques(&[(*spec).clone()], kernel).is_ok();
+        let takes = |spec: &&String| techniques::read(&[(*spec).clone()], kernel).is_ok();
         let specs: Vec<String> = arguments.techniques.iter().filter(takes).cloned().collect();
         let request = Request {
             scene: setting.name.clone(),
             geometry: setting.geometry.clone(),
             camera: setting.camera,
             light: setting.light,
-            techniques: compare::techniques(&specs, kernel)?,
+            techniques: techniques::read(&specs, kernel)?,
             map_size: arguments.scene.size,
             kernel,
             resolution: setting.resolution,
@@ -121,11 +125,12 @@ pub(crate) fn run(arguments: &Kernels) -> Result<()> {
         if request.techniques.is_empty() {
             continue;
         }
-        let results = compare::compare(&gpu, &request, &Bar::new())?.results;
+        let results = compare::compare(&gpu, &request, &bar)?.results;
         rows.extend(results.techniques.iter().map(|result| Row::new(kernel, result)));
         rows.extend(results.left_out.iter().map(|left_out| Row::left_out(kernel, left_out)));
         super::note_left_out(&results.left_out);
     }
+    drop(bar);
     let out = &mut io::stdout();
     if arguments.json {
         writeln!(out, "{}", serde_json::to_string_pretty(&rows)?)?;

@@ -1,7 +1,7 @@
 //! `antumbra maps`.
 
 use super::table;
-use crate::{arguments::Maps, scene};
+use crate::{arguments::Maps, scene, techniques};
 use antumbra::technique;
 use antumbra_lab::{
     compare, files,
@@ -21,7 +21,7 @@ const SHEET: &str = "sheet.png";
 pub(crate) fn run(arguments: &Maps) -> Result<()> {
     scene::check(&arguments.scene)?;
     files::check_folder(&arguments.output)?;
-    let techniques = compare::techniques(std::slice::from_ref(&arguments.technique), arguments.scene.kernel)?;
+    let techniques = techniques::read(std::slice::from_ref(&arguments.technique), arguments.scene.kernel)?;
     if techniques.len() > 1 {
         bail!("--technique {}: maps takes one technique", arguments.technique);
     }
@@ -41,14 +41,14 @@ pub(crate) fn run(arguments: &Maps) -> Result<()> {
         let mut sheet = Sheet::default();
         let mut take = |picture: Picture| -> Result<()> {
             let file = format!("{}.png", picture.name);
-            files::write_atomically(&folder.join(&file), &picture.image.to_png()?)?;
+            folder.write(&file, &picture.image.to_png()?)?;
             sheet.add(&picture);
             written.push((file, picture.scale, picture.range));
             Ok(())
         };
         take(maps::depth(&gpu, &mut stage, &view, [arguments.scene.size; 2])?)?;
         maps::pictures(&gpu, shadows, arguments.level, &mut take)?;
-        files::write_atomically(&folder.join(SHEET), &sheet.image().to_png()?)?;
+        folder.write(SHEET, &sheet.image().to_png()?)?;
         let pictures: Vec<Value> = written
             .iter()
             .map(|(file, scale, [low, high])| json!({ "file": file, "scale": scale, "least": low, "largest": high }))
@@ -64,7 +64,7 @@ pub(crate) fn run(arguments: &Maps) -> Result<()> {
             "files": names.collect::<Vec<_>>(),
         });
         let text = serde_json::to_string_pretty(&index)? + "\n";
-        files::write_atomically(&folder.join("maps.json"), text.as_bytes())?;
+        folder.write("maps.json", text.as_bytes())?;
         Ok(())
     })?;
     print(arguments, &folder, &written)

@@ -2,7 +2,7 @@
 
 use crate::{
     arguments::{Render, Show},
-    scene,
+    scene, techniques,
 };
 use antumbra::technique::{self, Bias};
 use antumbra_lab::{
@@ -32,7 +32,7 @@ pub(crate) fn run(arguments: &Render) -> Result<()> {
     let truth = arguments.technique == "truth";
     let techniques = match truth {
         true => Vec::new(),
-        false => compare::techniques(std::slice::from_ref(&arguments.technique), arguments.scene.kernel)?,
+        false => techniques::read(std::slice::from_ref(&arguments.technique), arguments.scene.kernel)?,
     };
     if techniques.len() > 1 {
         bail!("--technique {}: render takes one technique", arguments.technique);

@@ -19,7 +19,7 @@ pub(crate) fn run(arguments: &Reproduce) -> Result<()> {
     let targets = chosen(&arguments.targets)?;
     antumbra_reproduce::check(&arguments.output)?;
     let options = Options { targets, output: arguments.output.clone(), quick: arguments.quick };
-    let watch = Watch { bar: Bar::wide(), speak: !arguments.json };
+    let watch = Watch { bar: Bar::new([]), speak: !arguments.json };
     let results = antumbra_reproduce::run(&options, &watch)?;
     drop(watch);
     let out = &mut io::stdout();
@@ -106,8 +106,8 @@ impl Progress for Watch {
 
 impl Done for Watch {
     fn total(&self, target: &str, share: f64, seconds_left: f64) {
-        let minutes = (seconds_left / 60.0).ceil();
-        self.bar.prefix(&format!("{:3.0} %, {minutes:.0} min left, {target}", 100.0 * share));
+        self.bar.total(share, seconds_left);
+        self.bar.prefix(target);
     }
     fn target(&self, record: &Record) {
         if !self.speak {

@@ -26,10 +26,10 @@ pub fn write(outcome: &Outcome, out_dir: &Path) -> Result<PathBuf> {
     let page = html(outcome);
     files::write_folder(out_dir, |folder| {
         for (name, bytes) in &outcome.images {
-            files::write_atomically(&folder.join(name), bytes)?;
+            folder.write(name, bytes)?;
         }
-        files::write_atomically(&folder.join("flicker.json"), json.as_bytes())?;
-        files::write_atomically(&folder.join("index.html"), page.as_bytes())?;
+        folder.write("flicker.json", json.as_bytes())?;
+        folder.write("index.html", page.as_bytes())?;
         Ok(())
     })
 }
