@@ -118,12 +118,12 @@ pub(crate) struct SceneArguments {
     /// Eye, target, vertical field of view in degrees (50 if left out) and roll in degrees (0 if left
     /// out, clockwise), as x,y,z:x,y,z:degrees:roll, or ortho:x,y,z:x,y,z:height:roll (parallel rays, a
     /// picture of that height), or the number of a camera in the file; default: the file's first camera,
-    /// else one that sees everything
+    /// else one from which shadows are seen
     #[arg(long, allow_hyphen_values = true, value_name = "CAMERA")]
     pub(crate) camera: Option<String>,
     /// Direction of the sun as x,y,z (the way light travels), or spot:x,y,z:x,y,z:degrees (position,
     /// direction, half angle), or the number of a light in the file; default: the file's first, else
-    /// a sun over the camera's left shoulder
+    /// a sun that shows shadows
     #[arg(long, allow_hyphen_values = true, value_name = "LIGHT")]
     pub(crate) light: Option<String>,
     /// Pixels across and down

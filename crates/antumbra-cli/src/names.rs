@@ -3,9 +3,10 @@
 /// The known name that resembles a wrong one most, if any does.
 pub(crate) fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     known
-        // Wrong letters, with swapped ones as one, decide; of equals the one that begins alike.
+        // Wrong letters, with swapped ones as one, decide; of equals the one that begins alike. Two of three
+        // letters have to be right, or the name is an abbreviation.
         .map(|k| (strsim::normalized_damerau_levenshtein(name, k), strsim::jaro_winkler(name, k), k))
-        .filter(|(letters, beginning, _)| letters.max(*beginning) > 0.6)
+        .filter(|(letters, _, k)| *letters > 0.6 || (!name.is_empty() && k.starts_with(name)))
         .max_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)))
         .map(|(.., k)| k)
 }
@@ -23,6 +24,8 @@ mod tests {
         {
             assert_eq!(guess(slip), Some(meant));
         }
-        assert_eq!(guess("zzz"), None);
+        for stranger in ["zzz", "", "shadow", "model", "house", "performance", "map"] {
+            assert_eq!(guess(stranger), None, "{stranger}");
+        }
     }
 }

@@ -1,8 +1,10 @@
 //! From arguments to triangles, a camera and a light.
 
 use crate::{arguments::SceneArguments, views};
-use antumbra_scene::{Camera, Geometry, Light, Scene, import, procedural};
+use antumbra_lab::default_view;
+use antumbra_scene::{Camera, Geometry, Light, Projection, Scene, import, procedural};
 use anyhow::{Context, Result, bail};
+use glam::Vec3;
 use std::{io::Write, path::Path};
 
 /// All that is needed to render.
@@ -33,14 +35,41 @@ pub(crate) fn load(arguments: &SceneArguments) -> Result<Setting> {
     let scene = open(&arguments.scene, arguments.seed)?;
     scene.validate().with_context(|| arguments.scene.clone())?;
     let camera = match &arguments.camera {
-        None => scene.main_camera(),
-        Some(text) => views::camera(text, &scene).with_context(|| format!("--camera {text}"))?,
+        None => scene.cameras.first().copied(),
+        Some(text) => views::camera(text, &scene).map(Some).with_context(|| format!("--camera {text}"))?,
     };
     let light = match &arguments.light {
-        None => scene.main_light(),
-        Some(text) => views::light(text, &scene).with_context(|| format!("--light {text}"))?,
+        None => scene.lights.first().copied(),
+        Some(text) => views::light(text, &scene).map(Some).with_context(|| format!("--light {text}"))?,
     };
-    Ok(Setting { name: arguments.scene.clone(), geometry: scene.flatten(), camera, light, resolution })
+    let geometry = scene.flatten();
+    let (camera, light) = complete(&scene, &geometry, camera, light)?;
+    Ok(Setting { name: arguments.scene.clone(), geometry, camera, light, resolution })
+}
+
+/// What neither the file nor the command line says, with a note that tells how to say it.
+fn complete(
+    scene: &Scene,
+    geometry: &Geometry,
+    camera: Option<Camera>,
+    light: Option<Light>,
+) -> Result<(Camera, Light)> {
+    let chosen = default_view::choose(scene, geometry, camera, light)?;
+    let numbers = |v: Vec3| format!("{:.4},{:.4},{:.4}", v.x, v.y, v.z);
+    let Camera { position, target, projection, .. } = chosen.0;
+    if let (None, Projection::Perspective { fov_y }) = (camera, projection) {
+        let text = format!("{}:{}:{:.1}", numbers(position), numbers(target), fov_y.to_degrees());
+        note(&format!("no camera is given; chosen so that shadows are seen: --camera {text}"));
+    }
+    if let (None, Light::Directional { direction }) = (light, chosen.1) {
+        note(&format!("no light is given; chosen so that shadows are seen: --light {}", numbers(direction)));
+    }
+    Ok(chosen)
+}
+
+/// A line on standard error; one that nobody reads is no reason to stop.
+fn note(text: &str) {
+    let _ = writeln!(std::io::stderr(), "note: {text}");
 }
 
 /// A built-in scene or a file, not yet validated.
@@ -60,8 +89,7 @@ pub(crate) fn open(name: &str, seed: u64) -> Result<Scene> {
     }
     let scene = import::load(path)?;
     for note in &scene.notes {
-        // A standard error that nobody reads is no reason to stop.
-        let _ = writeln!(std::io::stderr(), "note: {note}");
+        self::note(note);
     }
     Ok(scene)
 }

@@ -15,6 +15,7 @@ pub mod chart;
 pub mod classes;
 pub mod compare;
 pub mod curve;
+pub mod default_view;
 pub mod files;
 pub mod flicker;
 pub mod gpu;

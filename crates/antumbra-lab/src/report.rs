@@ -98,15 +98,21 @@ fn is_safe(name: &str) -> bool {
     plain && !OWN_FILES.iter().any(|own| own.eq_ignore_ascii_case(name))
 }
 
+/// What a page is called: the scene's name, of a file without its folders.
+fn title(scene: &str) -> &str {
+    Path::new(scene).file_name().and_then(|name| name.to_str()).unwrap_or(scene)
+}
+
 /// The page alone.
 ///
 /// # Errors
 /// [`ReportError::MissingImage`].
 fn html(results: &Results, images: &BTreeMap<String, Vec<u8>>) -> Result<String, ReportError> {
+    let title = title(&results.scene.name);
     let best = answer::best(results, |t| t.scores.light_space.rmse);
     let parts = [
-        ("title", text::escape(&format!("{}: shadow techniques compared", results.scene.name))),
-        ("scene", text::escape(&results.scene.name)),
+        ("title", text::escape(&format!("{title}: shadow techniques compared"))),
+        ("scene", text::escape(title)),
         ("facts", sections::facts(results)),
         ("style", STYLE.to_owned()),
         ("script", format!("{VIEWER_SCRIPT}\n{PAGE_SCRIPT}")),

@@ -177,6 +177,17 @@ pub struct TruthFacts {
     pub images: TruthImages,
 }
 
+impl TruthFacts {
+    /// Share of pixels that may match without any shadow before a view says nothing about techniques.
+    pub const MOST_WITHOUT_SHADOW: f64 = 0.97;
+
+    /// Whether the view shows so little shadow that scores rank nothing.
+    #[must_use]
+    pub fn shows_no_shadow(&self) -> bool {
+        self.no_shadow.pixel_match > Self::MOST_WITHOUT_SHADOW
+    }
+}
+
 /// Names of the truths' images.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct TruthImages {

@@ -70,6 +70,14 @@ fn warn(results: &Results) {
              reason; do not trust these scores (is the scene of extreme size?)"
         );
     }
+    if results.truth.shows_no_shadow() {
+        let _ = writeln!(
+            io::stderr(),
+            "warning: no shadow at all matches {:.2} % of the pixels: this view says little about techniques; choose \
+             another with --camera and --light",
+            100.0 * results.truth.no_shadow.pixel_match
+        );
+    }
     for (spec, why) in results.techniques.iter().filter_map(|t| Some((&t.spec, t.invalid.as_ref()?))) {
         let _ = writeln!(io::stderr(), "warning: {spec} is invalid: {why}");
     }

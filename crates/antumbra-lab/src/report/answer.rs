@@ -16,12 +16,51 @@ fn frame(technique: &TechniqueResult) -> String {
     milliseconds(technique.time.frame.median_ms)
 }
 
+/// Share of the best error within which an error is as good.
+const AS_GOOD: f64 = 1.1;
+
+/// The technique to take for filtered shadows: the quickest of those whose error is as good as the smallest.
+fn recommended(results: &Results) -> Option<&TechniqueResult> {
+    let error = |t: &TechniqueResult| t.scores.light_space.rmse;
+    let least = error(best(results, error)?);
+    let as_good = results.valid().filter(|t| error(t) <= AS_GOOD * least);
+    as_good.min_by(|a, b| a.time.frame.median_ms.total_cmp(&b.time.frame.median_ms))
+}
+
+/// The first line: what to take and why, or why nothing can be said.
+fn recommendation(results: &Results) -> Option<String> {
+    if results.truth.shows_no_shadow() {
+        return Some(format!(
+            "<p class=\"take\">This view shows next to no shadow: drawing none at all matches {} of the pixels that \
+             could be in shadow, so no technique is named. Choose another with <code>--camera</code> and \
+             <code>--light</code>.</p>",
+            percent(results.truth.no_shadow.pixel_match)
+        ));
+    }
+    let take = recommended(results)?;
+    let ratio = take.time.frame_ratio_to_hard;
+    let ratio =
+        ratio.map_or_else(String::new, |r| format!(", {} × the frame of <code>hard</code>", significant(r)));
+    let leak = take.scores.light_space.leak.filter(|leak| *leak >= 0.01);
+    let leak = leak.map_or_else(String::new, |l| format!(" Mind that it leaks {} of the light.", percent(l)));
+    Some(format!(
+        "<p class=\"take\">For filtered shadows in this scene take {}: of the techniques whose error is within a \
+         tenth of the smallest it is the quickest (RMSE {}, {} a frame{ratio}, {} of memory).{leak}</p>",
+        name(take),
+        significant(take.scores.light_space.rmse),
+        frame(take),
+        text::bytes(take.memory.kept_bytes as f64)
+    ))
+}
+
 /// Who is best by error, by error and time, by time; and what the no-shadow baseline scores.
 pub(super) fn paragraph(results: &Results) -> String {
     let light_space = |t: &TechniqueResult| t.scores.light_space.rmse;
     let product = |t: &TechniqueResult| light_space(t) * t.time.frame.median_ms;
     let mut sentences = Vec::new();
-    if let (Some(closest), Some(trade)) = (best(results, light_space), best(results, product)) {
+    if results.truth.shows_no_shadow() {
+        sentences.push("Numbers below rank little but noise.".into());
+    } else if let (Some(closest), Some(trade)) = (best(results, light_space), best(results, product)) {
         sentences.push(format!(
             "Closest to the light-space ideal, which every filtered map approximates, is {}: RMSE {} at {} a frame.",
             name(closest),
@@ -51,7 +90,12 @@ pub(super) fn paragraph(results: &Results) -> String {
                 .into(),
         );
     }
-    format!("<p>{}</p>{}", sentences.join(" "), missing(results))
+    format!(
+        "{}<p>{}</p>{}",
+        recommendation(results).unwrap_or_default(),
+        sentences.join(" "),
+        missing(results)
+    )
 }
 
 /// Techniques whose numbers are worth nothing or do not exist, and why.

@@ -139,6 +139,18 @@ document.querySelectorAll("table.sortable").forEach((table) => {
   }));
 });
 
+// Tables that go on beyond the edge say so.
+{
+  const check = new ResizeObserver((entries) => entries.forEach(({ target }) => {
+    const box = target.closest(".scroll");
+    box.toggleAttribute("data-cut", box.scrollWidth > box.clientWidth + 1);
+  }));
+  document.querySelectorAll(".scroll").forEach((box) => {
+    check.observe(box);
+    if (box.firstElementChild) check.observe(box.firstElementChild);
+  });
+}
+
 // Tips for the pointer and for the keyboard.
 {
   const tip = byId("tip");

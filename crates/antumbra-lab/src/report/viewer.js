@@ -88,6 +88,8 @@ const viewer = (() => {
   function resize() {
     const [w, h] = size();
     const width = canvas.clientWidth;
+    // Not shown, as while the page is printed: there is nothing to fit into.
+    if (width === 0) return;
     const height = Math.min(width * h / w, Math.max(window.innerHeight * 0.78, 240));
     canvas.style.height = `${height}px`;
     canvas.width = Math.round(width * devicePixelRatio);

@@ -29,7 +29,7 @@ pub enum Problem {
     #[error("cannot be read: {0}")]
     Read(#[source] std::io::Error),
     /// Not a format we know.
-    #[error("files that end in '.{extension}' are not supported; allowed are .gltf, .glb and .obj")]
+    #[error("{}; allowed are .gltf, .glb and .obj", unknown_format(extension))]
     Format {
         /// Extension in lower case, without the dot.
         extension: String,
@@ -82,6 +82,14 @@ pub enum Problem {
     /// The file was read, but the scene in it cannot be used.
     #[error(transparent)]
     Scene(#[from] SceneError),
+}
+
+/// What is wrong with a file's name.
+fn unknown_format(extension: &str) -> String {
+    match extension {
+        "" => "the name of the file has no extension, which would tell its format".into(),
+        _ => format!("files that end in '.{extension}' are not supported"),
+    }
 }
 
 /// A [`Problem::Invalid`].
