@@ -54,7 +54,26 @@ pub(crate) fn script(shell: Shell) -> String {
     let mut script = Vec::new();
     clap_complete::generate(shell, &mut Arguments::command(), "antumbra", &mut script);
     let script = String::from_utf8_lossy(&script).into_owned();
-    if shell == Shell::Zsh { with_files(&script) } else { script }
+    match shell {
+        Shell::Zsh => with_files(&script),
+        Shell::Fish => script + &fish_words(),
+        _ => script,
+    }
+}
+
+/// Commands whose words are scenes.
+const SCENE_COMMANDS: &str = "compare render flicker bench bias kernels maps";
+
+/// Words, as opposed to options, which fish's script leaves out.
+fn fish_words() -> String {
+    let line = |commands: &str, words: &Suggested| {
+        let words = (words.0)().join(" ");
+        format!("complete -c antumbra -n \"__fish_seen_subcommand_from {commands}\" -a \"{words}\"\n")
+    };
+    [(SCENE_COMMANDS, SCENES), ("curve techniques", TECHNIQUES), ("reproduce", TARGETS)]
+        .iter()
+        .map(|(commands, words)| line(commands, words))
+        .collect()
 }
 
 /// Where zsh offers scenes it shall offer files too. Other shells do by themselves.

@@ -104,8 +104,10 @@ fn write(out: &mut impl Write, header: &[&str], rows: &[Vec<String>], width: usi
         columns.iter_mut().for_each(Column::break_header);
     }
     let all = total(&columns);
+    // Alone beside the first column it may be broken further.
+    let alone = width.saturating_sub(columns[0].width() + GAP);
     if let Some(last) = columns.last_mut().filter(|last| all > width && !last.numeric) {
-        last.break_cells(width.saturating_sub(all - last.width()).max(LEAST_TEXT));
+        last.break_cells(width.saturating_sub(all - last.width()).max(LEAST_TEXT.min(alone)));
     }
     let mut first = 1;
     for end in blocks(&columns, width) {
