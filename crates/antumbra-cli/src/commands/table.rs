@@ -34,7 +34,7 @@ struct Column {
 impl Column {
     fn new(header: &str, cells: &[String]) -> Self {
         let starts_numeric =
-            |cell: &&String| cell.starts_with(|c: char| c.is_ascii_digit() || c == '-' || c == '–');
+            |cell: &String| cell.starts_with(|c: char| c.is_ascii_digit() || c == '-' || c == '–');
         Self {
             header: vec![header.to_string()],
             cells: cells.iter().map(|cell| vec![cell.clone()]).collect(),
