@@ -221,7 +221,7 @@ fn what_is_invalid_or_left_out_is_said_and_has_no_rank() {
     for text in ["invalid: shadows are &lt;missing&gt;", "Left out", "dpm.keeps=9", "too large"] {
         assert!(table.contains(text), "{text} is missing in: {table}");
     }
-    let row = table.split("<tr>").find(|row| row.contains("esm.c=80")).unwrap();
+    let row = table.split("</tr>").find(|row| row.contains("esm.c=80")).unwrap();
     assert_eq!(row.matches("<td").count(), 1, "{row}");
     let csv = some.csv();
     let (_, numbers) = csv.lines().last().unwrap().split_once(",basis").unwrap();

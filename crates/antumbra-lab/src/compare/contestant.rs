@@ -66,12 +66,15 @@ impl Contestant {
     /// If the device is lost.
     pub fn draw_maps(&mut self, gpu: &Gpu, stage: &Stage) -> Result<()> {
         self.cast(gpu, stage)?;
-        let Some(needed) = self.occupancy.as_ref().and_then(Occupancy::needed) else { return Ok(()) };
-        // Later views may need a little more.
-        let per_texel = needed.triangles_per_texel;
-        let capacity = Capacity { triangles_per_texel: per_texel + per_texel / 4, ..needed };
-        let options = self.options.clone().capacity(capacity);
-        if let Ok(mut larger) = Self::new(gpu, stage, self.shadows.technique(), &options, self.entry) {
+        // Twice where triangles without an id were not counted in their texels.
+        while let Some(needed) = self.occupancy.as_ref().and_then(Occupancy::needed) {
+            // Later views may need a little more.
+            let per_texel = needed.triangles_per_texel;
+            let capacity = Capacity { triangles_per_texel: per_texel + per_texel / 4, ..needed };
+            let options = self.options.clone().capacity(capacity);
+            let Ok(mut larger) = Self::new(gpu, stage, self.shadows.technique(), &options, self.entry) else {
+                break;
+            };
             larger.shadows.prepare(&gpu.queue, self.shadows.views())?;
             larger.cast(gpu, stage)?;
             *self = larger;
