@@ -1,9 +1,10 @@
 # make demo    compare all techniques on the fence scene and say where the report is
 # make test    everything that must hold before a change lands
 # make bench   times on the fence scene
-# make setup   what the two above do first: a Vulkan driver if the machine has none
+# make setup   what the three above do first: a Vulkan driver if the machine has none
+# make portability   every shader through a browser's compiler, pictures and laws on a second driver; needs Node
 
-.PHONY: demo test bench setup fmt clippy doc check-wasm deny golden
+.PHONY: demo test bench setup fmt clippy doc check-wasm portability deny golden
 
 CARGO ?= cargo
 export RUSTDOCFLAGS = -D warnings
@@ -14,6 +15,7 @@ demo: setup
 
 test: setup fmt clippy doc check-wasm
 	$(CARGO) test --release --workspace
+	@echo "not tried here: a browser's compiler, and a second driver (make portability; needs Node)"
 
 bench: setup
 	$(CARGO) run --release --bin antumbra -- bench fence --kernel 7 \
@@ -38,6 +40,26 @@ check-wasm:
 	else \
 		echo "wasm32-unknown-unknown is not installed: browser build not checked (rustup target add wasm32-unknown-unknown)"; \
 	fi
+
+SHADERS = target/portability
+# Chromium's software driver: another compiler and another rasteriser than Mesa's.
+SWIFTSHADER = target/swiftshader/vk_swiftshader_icd.json
+
+# After `make test` this builds nothing: the same tests write what they check.
+portability: setup
+	@node --version >/dev/null && npm --version >/dev/null || { echo "portability: Node 20 or later is needed, with npm"; exit 1; }
+	rm -rf $(SHADERS)
+	ANTUMBRA_SHADERS=$(CURDIR)/$(SHADERS) $(CARGO) test --release --workspace --test portability
+	ANTUMBRA_SHADERS=$(CURDIR)/$(SHADERS) $(CARGO) test --release --workspace --lib shaders::
+	cd portability && npm ci --silent && node check.mjs ../$(SHADERS)
+	@if command -v $${CHROMIUM:-chromium} >/dev/null; then \
+		cd portability && node browser.mjs ../$(SHADERS); \
+	else \
+		echo "Chromium is not installed: shaders not tried in a browser"; \
+	fi
+	@sh scripts/swiftshader.sh $(dir $(SWIFTSHADER))
+	VK_DRIVER_FILES=$(CURDIR)/$(SWIFTSHADER) ANTUMBRA_ADAPTER=SwiftShader $(CARGO) test --release --workspace \
+		--test golden --test laws
 
 # Licences and advisories of all dependencies; needs cargo-deny.
 deny:

@@ -1,7 +1,7 @@
 //! The shadow test as a technique approximates it: visibility against how far a receiver lies behind
 //! its caster [Annen et al. 2007, figure 3; Annen et al. 2008, figure 2].
 
-use crate::gpu::Gpu;
+use crate::{gpu::Gpu, shaders};
 use antumbra::{
     CasterMesh, DEPTH_FORMAT, Options, ShadowMap, Size, Technique, View,
     technique::{self, Bias, Caster},
@@ -99,7 +99,7 @@ fn triangle(gpu: &Gpu, depth: f32) -> Result<CasterMesh> {
 
 /// Draws a caster parallel to the map over all of it.
 fn flat(gpu: &Gpu, depth: f32) -> wgpu::RenderPipeline {
-    let source = wgpu::ShaderSource::Wgsl(include_str!("curve/caster.wgsl").into());
+    let source = wgpu::ShaderSource::Wgsl(shaders::FLAT_CASTER.into());
     let module = gpu.shader("flat caster", source);
     gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some("flat caster"),
@@ -168,7 +168,7 @@ fn ask(
         bind_group_layouts: &[Some(shadows.layout()), Some(&own)],
         immediate_size: 0,
     });
-    let module = gpu.shader("curve", shadows.wgsl(0).after(include_str!("curve/ask.wgsl")));
+    let module = gpu.shader("curve", shadows.wgsl(0).after(shaders::CURVE));
     let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
         label: Some("curve"),
         layout: Some(&layout),

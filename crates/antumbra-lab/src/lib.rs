@@ -29,6 +29,7 @@ pub mod plane;
 pub mod regions;
 pub mod report;
 pub mod results;
+mod shaders;
 pub mod stage;
 mod texels;
 pub mod timing;

@@ -3,16 +3,12 @@
 use crate::{
     gpu::Gpu,
     plane::{Plane, Rgba8Image},
+    shaders,
     stage::{Stage, fullscreen, loaded, surfaces::overwrite},
 };
 use antumbra::ShadowMap;
 use anyhow::Result;
 use wgpu::TextureFormat;
-
-const FRAME: &str = include_str!("stage/frame.wgsl");
-const LOOKUP: &str = include_str!("lighting/lookup.wgsl");
-const VISIBILITY: &str = include_str!("lighting/visibility.wgsl");
-const CLASS: &str = include_str!("lighting/class.wgsl");
 
 /// The full-screen pass that asks a shadow map about every surface.
 #[derive(Debug)]
@@ -24,18 +20,18 @@ impl Lookup {
     /// For the visibility in one shadow map; 1 where there is no surface.
     #[must_use]
     pub fn new(gpu: &Gpu, stage: &Stage, shadows: &ShadowMap) -> Self {
-        Self::asking(gpu, stage, shadows, VISIBILITY)
+        Self::asking(gpu, stage, shadows, shaders::VISIBILITY)
     }
 
     /// For the numbers of [`shares`](crate::classes::shares), if the technique has classes.
     #[must_use]
     pub fn classes(gpu: &Gpu, stage: &Stage, shadows: &ShadowMap) -> Option<Self> {
         let any = !shadows.technique().classes().is_empty();
-        any.then(|| Self::asking(gpu, stage, shadows, CLASS))
+        any.then(|| Self::asking(gpu, stage, shadows, shaders::CLASS))
     }
 
     fn asking(gpu: &Gpu, stage: &Stage, shadows: &ShadowMap, question: &str) -> Self {
-        let source = shadows.wgsl(1).after(&[FRAME, LOOKUP, question].concat());
+        let source = shadows.wgsl(1).after(question);
         let groups = [&stage.surfaces().layout, shadows.layout()];
         Self { pipeline: fullscreen(gpu, "lookup", source, &groups, TextureFormat::R32Float) }
     }
@@ -43,8 +39,7 @@ impl Lookup {
     /// Everything lit: what the pass costs without any lookup.
     #[must_use]
     pub fn unshadowed(gpu: &Gpu, stage: &Stage) -> Self {
-        let parts = [FRAME, LOOKUP, VISIBILITY, include_str!("lighting/unshadowed.wgsl")];
-        let source = wgpu::ShaderSource::Wgsl(parts.concat().into());
+        let source = wgpu::ShaderSource::Wgsl(shaders::UNSHADOWED.into());
         Self {
             pipeline: fullscreen(
                 gpu,
@@ -88,7 +83,7 @@ impl Lighting {
                 resource: wgpu::BindingResource::TextureView(&visibility_view),
             }],
         });
-        let source = wgpu::ShaderSource::Wgsl([FRAME, include_str!("lighting/picture.wgsl")].concat().into());
+        let source = wgpu::ShaderSource::Wgsl(shaders::PICTURE.into());
         Self {
             shade: fullscreen(
                 gpu,

@@ -2,6 +2,8 @@
 
 pub mod broken;
 pub mod image;
+pub mod settings;
+pub mod shaders;
 
 use std::sync::OnceLock;
 
@@ -59,11 +61,13 @@ fn open(choose: impl FnOnce(&wgpu::Adapter) -> (wgpu::Features, wgpu::Limits)) -
 }
 
 impl Gpu {
-    /// Whether the device is a processor. Graphics cards weigh the texels of a sampler with 8 bits, and round
-    /// corners of triangles and small numbers in ways of their own.
+    /// Whether the device is a processor with a driver that is as precise as floats. Graphics cards weigh
+    /// the texels of a sampler with 8 bits, and round corners of triangles and small numbers in ways of
+    /// their own. SwiftShader promises no more than they do (4 bits for texels and for corners), so it is
+    /// granted what they are.
     #[must_use]
     pub fn is_software(&self) -> bool {
-        self.info.device_type == wgpu::DeviceType::Cpu
+        self.info.device_type == wgpu::DeviceType::Cpu && !self.info.name.contains("SwiftShader")
     }
 
     /// Runs `f` and panics with every validation or memory error that it causes.
@@ -176,8 +180,18 @@ impl Trials {
         }));
     }
 
-    /// Runs everything as `cargo test` expects and ends the process.
+    /// Runs everything as `cargo test` expects and ends the process. If the environment variable
+    /// `ANTUMBRA_ADAPTER` holds part of a name, no adapter but one of that name will do.
     pub fn run(self) -> ! {
+        let found = gpu().map_or("none", |gpu| &gpu.info.name);
+        match std::env::var("ANTUMBRA_ADAPTER") {
+            Ok(wanted) if found.contains(&wanted) => eprintln!("adapter: {found}"),
+            Ok(wanted) => {
+                eprintln!("ANTUMBRA_ADAPTER is {wanted}, but the adapter is: {found}");
+                std::process::exit(1);
+            }
+            Err(_) => {}
+        }
         if gpu().is_none() {
             eprintln!(
                 "no GPU adapter: these tests are ignored (Debian, Ubuntu: apt-get install mesa-vulkan-drivers)"

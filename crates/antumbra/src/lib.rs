@@ -103,6 +103,12 @@
 //! | `VERTEX_WRITABLE_STORAGE` | fragments, not vertices, keep the corners of triangles (`dpm`) |
 //! | eight colour attachments of the format | layers are converted in several passes |
 //!
+//! Browsers have the first four as `float32-filterable`, `depth-clip-control`, `texture-formats-tier1` and
+//! `primitive-index`. They have neither `CONSERVATIVE_RASTERIZATION` nor `VERTEX_WRITABLE_STORAGE`: only
+//! where a device has the latter do vertices write to buffers, which browsers refuse. Tint, Chromium's
+//! compiler, takes all other shaders, of every technique with every setting. [`Shader::all`] and
+//! [`ShaderText::receiver`] compose them without a device, to be checked or compiled beforehand.
+//!
 //! # Features
 //!
 //! `serde`: settings of techniques, [`Filter`] and [`technique::Bias`] can be saved and loaded.
@@ -136,7 +142,7 @@ pub use map::{
 };
 pub use parameter::{Choice, Field, Parameter};
 pub use precision::Precision;
-pub use shader::{CASTER_WGSL, ShaderText};
+pub use shader::{CASTER_WGSL, Shader, ShaderText};
 pub use table::Table;
 pub use technique::{
     Technique, bicubic::Bicubic, csm::Csm, dpm::Dpm, esm::Esm, evsm::Evsm, exact::Exact,

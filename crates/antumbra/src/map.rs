@@ -29,6 +29,7 @@ mod textures;
 mod uniforms;
 
 pub use capacity::Capacity;
+pub(crate) use capacity::splits;
 use caster::TriangleCaster;
 use draw::Draw;
 use lists::{ListSize, Lists};

@@ -394,8 +394,11 @@ pub(crate) fn scan(splits: &Splits) -> String {
 }
 
 pub(crate) mod buffers;
+mod listing;
 pub(crate) mod split;
 mod unroll;
+
+pub use listing::Shader;
 
 #[cfg(test)]
 mod tests;

@@ -315,11 +315,11 @@ fn fallbacks_agree(gpu: &Gpu, technique: &dyn Technique) -> Result<(), String> {
     // Moments are rounded by 6e-8, which a variance near its floor of 1e-6 magnifies, and a moment
     // bias of 3e-6 too; GPUs interpolate with 8-bit weights besides.
     let has = |uniform| technique.uniforms().iter().any(|(name, _)| *name == uniform);
-    let tolerance = match gpu.info.device_type {
-        wgpu::DeviceType::Cpu if has("moment_bias") => 5e-3,
-        wgpu::DeviceType::Cpu if has("least_variance") => 1e-3,
-        wgpu::DeviceType::Cpu => 1e-4,
-        _ => 2e-2,
+    let tolerance = match gpu.is_software() {
+        true if has("moment_bias") => 5e-3,
+        true if has("least_variance") => 1e-3,
+        true => 1e-4,
+        false => 2e-2,
     };
     let differ = expected.iter().zip(&found).filter(|(e, f)| (**e - **f).abs() > tolerance).count();
     // A texel or a level that weighs less than half a 256th weighs nothing, though it may hold a power of e

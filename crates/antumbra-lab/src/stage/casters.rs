@@ -1,12 +1,10 @@
 //! How the casters of a stage are drawn for a shadow map: depth, or triangles where it keeps those.
 
 use super::Stage;
-use crate::gpu::Gpu;
+use crate::{gpu::Gpu, shaders};
 use antumbra::{CasterMesh, ShadowMap, technique::Caster};
 use anyhow::Result;
 use glam::Mat4;
-
-const CUTOUT: &str = concat!(include_str!("frame.wgsl"), include_str!("cutout.wgsl"));
 
 /// What drawing casters for one shadow map takes.
 #[derive(Debug)]
@@ -56,7 +54,8 @@ impl Casters {
             layout: &layout,
             entries: &[wgpu::BindGroupEntry { binding: 0, resource: stage.attributes.as_entire_binding() }],
         });
-        let pipeline = shadows.cutout_caster(&gpu.device, CUTOUT, &[&stage.materials.layout, &layout]);
+        let pipeline =
+            shadows.cutout_caster(&gpu.device, shaders::CUTOUT, &[&stage.materials.layout, &layout]);
         Ok(Self::Triangles { mesh, cutout: pipeline.map(|pipeline| (pipeline, attributes)) })
     }
 }

@@ -1,7 +1,7 @@
 //! The pipelines that draw geometry.
 
 use super::{Attributes, Offset, surfaces, uniform_entry};
-use crate::gpu::Gpu;
+use crate::{gpu::Gpu, shaders};
 use antumbra::Capabilities;
 use wgpu::{BindGroupLayout, RenderPipeline, TextureFormat, VertexFormat};
 
@@ -44,12 +44,8 @@ impl Pipelines {
             })
         };
         let (bare, full) = (layout(&[Some(&uniform)]), layout(&[Some(&uniform), Some(material)]));
-        let stage = wgsl(gpu, "stage", &[include_str!("frame.wgsl"), include_str!("stage.wgsl")]);
-        let caster = wgsl(
-            gpu,
-            "caster",
-            &[include_str!("frame.wgsl"), antumbra::CASTER_WGSL, include_str!("caster.wgsl")],
-        );
+        let stage = wgsl(gpu, "stage", &[shaders::STAGE]);
+        let caster = wgsl(gpu, "caster", &[shaders::CASTER, antumbra::CASTER_WGSL]);
         let clamps = Capabilities::of(&gpu.device).clamps_depth();
         let cast = |vertex, fragment: Option<&'static str>| Recipe {
             layout: if fragment.is_some() { &full } else { &bare },

@@ -1,6 +1,14 @@
 //! How many triangles a map has memory for.
 
-use super::lists::ROW;
+use super::{
+    Options,
+    lists::{ListSize, ROW},
+    ranked::RankedSize,
+};
+use crate::{
+    shader::split::Splits,
+    technique::{Caster, Technique},
+};
 
 /// Memory that a [`ShadowMap`](crate::ShadowMap) allocates for triangles, where its technique keeps them by
 /// id: those whose [`caster`](crate::Technique::caster) is [`Caster::Lists`] or [`Caster::Ranked`]. All
@@ -41,6 +49,16 @@ impl Capacity {
     /// Rows of textures of vertices.
     pub(super) fn rows(self) -> u32 {
         self.triangles.div_ceil(ROW)
+    }
+}
+
+/// How the arrays of such a map are split into buffers.
+pub(crate) fn splits(technique: &dyn Technique, limits: &wgpu::Limits, options: &Options) -> Splits {
+    let Options { size, views, capacity, .. } = *options;
+    match technique.caster() {
+        Caster::Depth | Caster::Triangles(_) => Splits::default(),
+        Caster::Lists => ListSize { size, views, capacity }.splits(limits),
+        Caster::Ranked { keeps } => RankedSize { size, views, keeps, capacity }.splits(limits),
     }
 }
 

@@ -57,6 +57,15 @@ impl Pipelines {
         self.made.lock().unwrap_or_else(PoisonError::into_inner).len()
     }
 
+    /// Texts of the shaders of the pipelines compiled so far, casters' included, in no order; see
+    /// [`Shader::all`](crate::Shader::all).
+    #[must_use]
+    pub fn shaders(&self) -> Vec<String> {
+        let made = self.made.lock().unwrap_or_else(PoisonError::into_inner);
+        let casters = self.casters.lock().unwrap_or_else(PoisonError::into_inner);
+        made.keys().chain(casters.keys()).map(|(text, _)| text.clone()).collect()
+    }
+
     /// Whether nothing was compiled yet.
     #[must_use]
     pub fn is_empty(&self) -> bool {

@@ -1,13 +1,7 @@
 use super::{split::Split, *};
-use crate::{
-    light::Size,
-    pass::plan,
-    technique::{self, Caster, Coverage, all, parse},
-};
-use naga::{
-    AddressSpace,
-    valid::{Capabilities as Allowed, ValidationFlags, Validator},
-};
+use crate::technique::{self, all, parse};
+use antumbra_testing::{settings, shaders::parse as validate};
+use naga::AddressSpace;
 
 const SIZE: MapSize =
     MapSize { views: 3, capacity: Capacity { triangles: 1000, triangles_per_texel: 4 }, splits: WHOLE };
@@ -27,69 +21,9 @@ fn devices() -> [Capabilities; 2] {
     [full, lesser]
 }
 
-/// The techniques with settings that change their WGSL.
+/// The techniques with each setting changed by itself.
 fn variants() -> Vec<Box<dyn Technique>> {
-    let mut variants = Vec::new();
-    for plain in all() {
-        let name = plain.page().name;
-        let names: Vec<&str> = plain.boxed().parameters().iter().map(|p| p.name).collect();
-        let mut settings = vec![""];
-        if names.contains(&"sampling") {
-            settings.extend(["sampling=nearest", "sampling=bilinear", "sampling=anisotropic,anisotropy=4"]);
-            settings.extend(["sampling=summed", "kernel=5,weights=box"]);
-        }
-        if names.contains(&"taps") {
-            settings.extend(["taps=nearest", "taps=bilinear", "taps=merged", "kernel=8,weights=box"]);
-        }
-        if names.contains(&"precision") {
-            settings.push("precision=12");
-        }
-        if names.contains(&"grid") {
-            settings.push("grid=4");
-        }
-        if names.contains(&"spin") {
-            settings.extend(["spin=fixed", "points=64"]);
-        }
-        if names.contains(&"terms") {
-            settings.extend(["terms=1", "terms=5", "storage=float32"]);
-        }
-        if names.contains(&"intervals") {
-            settings.extend(["intervals=2", "intervals=7"]);
-        }
-        if names.contains(&"classifier") {
-            settings.extend(["classifier=threshold", "classifier=zmax", "classifier=zmax,custom=none"]);
-            settings.extend(["storage=log16", "sampling=summed,classifier=zmax"]);
-        }
-        if names.contains(&"slope_of") {
-            settings.extend(["slope_of=caster", "storage=unorm16"]);
-        }
-        if names.contains(&"choose") {
-            settings.extend(["choose=receiver", "choose=blend"]);
-        }
-        if names.contains(&"neighbours") {
-            settings.extend(["packing=map,missed=lit", "packing=texel,neighbours=5"]);
-        }
-        if names.contains(&"layers") {
-            settings.extend(["packing=map,layers=1", "packing=texel,samples=4", "samples=2"]);
-        }
-        if names.contains(&"keeps") {
-            settings.extend(["keeps=1,samples=3", "keeps=32"]);
-        }
-        if names.contains(&"moments") {
-            settings.push("moments=two");
-        }
-        variants.extend(settings.iter().map(|s| parse(&format!("{name}.{s}")).unwrap()));
-    }
-    variants
-}
-
-fn validate(text: &str) -> Result<naga::Module, String> {
-    let module = naga::front::wgsl::parse_str(text).map_err(|e| e.emit_to_string(text))?;
-    // Packing two 16-bit floats into a word is core WebGPU; naga counts it among what drivers may lack.
-    Validator::new(ValidationFlags::all(), Allowed::SHADER_FLOAT16_IN_FLOAT32 | Allowed::PRIMITIVE_INDEX)
-        .validate(&module)
-        .map_err(|e| e.emit_to_string(text))?;
-    Ok(module)
+    settings::single().iter().map(|spec| parse(spec).unwrap()).collect()
 }
 
 /// What a library file may look like: names, kinds of declaration, docs, sampling.
@@ -232,7 +166,7 @@ fn split_arrays_validate() {
 }
 
 #[test]
-fn every_composed_receiver_and_pass_validates() {
+fn every_receiver_binds_what_the_technique_names() {
     for device in devices() {
         for technique in variants() {
             let spec = technique::spec(technique.as_ref());
@@ -244,30 +178,6 @@ fn every_composed_receiver_and_pass_validates() {
             let uniforms =
                 module.global_variables.iter().filter(|(_, v)| v.space == AddressSpace::Uniform).count();
             assert_eq!(uniforms, 1, "{spec}");
-            if technique.caster() != Caster::Depth {
-                let cutout =
-                    "fn caster_covers(triangle: u32, weights: vec3f) -> bool { return weights.x < 0.5; }";
-                use TrianglePass::{Any, Indexed, Pulled};
-                let both = [Coverage::Touched, Coverage::Centre];
-                let pulled = both.into_iter().flat_map(|c| [Pulled(c, false), Pulled(c, true)]);
-                let lists = matches!(technique.caster(), Caster::Lists | Caster::Ranked { .. });
-                let indexed = both.into_iter().filter(|_| !lists).map(Indexed);
-                let plain = pulled.chain(indexed).chain([Any]).map(|pass| (None, pass));
-                let all = plain.chain([(Some(cutout), Any)]);
-                for ((cutout, pass), splits) in all.flat_map(|a| [(a, WHOLE), (a, PARTS)]) {
-                    let text = triangles(technique.as_ref(), &device, cutout, pass, &splits);
-                    validate(&text).unwrap_or_else(|e| panic!("{spec}: {e}"));
-                }
-            }
-            let maps = technique.maps(&device).unwrap();
-            let mut texts: Vec<String> = plan(technique.as_ref(), &device, &maps, Size::square(64))
-                .into_iter()
-                .map(|s| s.shader)
-                .collect();
-            texts.dedup();
-            for text in texts {
-                validate(&text).unwrap_or_else(|e| panic!("{spec}: {e}"));
-            }
         }
     }
 }

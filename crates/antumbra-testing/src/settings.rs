@@ -1,0 +1,126 @@
+//! Settings of techniques that between them take every way through the library's WGSL, found in the list
+//! of techniques and their parameter tables, so that new ones are among them.
+
+use antumbra::{
+    Field, Parameter, Technique,
+    technique::{self, set},
+};
+use std::collections::BTreeSet;
+
+/// A technique, and what was set, in this order.
+type Set = (Box<dyn Technique>, Vec<String>);
+
+/// Each technique in its defaults and with each of its settings changed by itself, as
+/// [`technique::parse`] reads them. Numbers are tried at both ends of their range and next to the lower
+/// one, all values where there are few.
+#[must_use]
+pub fn single() -> Vec<String> {
+    specs(|technique| singles(&(technique.boxed(), Vec::new())))
+}
+
+/// Beside those of [`single`] each choice with every other choice, and each number with each other
+/// setting. What a technique refuses together is left out.
+#[must_use]
+pub fn many() -> Vec<String> {
+    specs(|technique| {
+        let alone = (technique.boxed(), Vec::new());
+        let mut sets = singles(&alone);
+        // A setting may widen the range of those that come before it, too.
+        sets.extend(sets.clone().iter().flat_map(singles));
+        sets.extend(products(alone));
+        sets
+    })
+}
+
+fn specs(sets: impl Fn(&dyn Technique) -> Vec<Set>) -> Vec<String> {
+    let mut known = BTreeSet::new();
+    let mut specs = Vec::new();
+    for technique in technique::all() {
+        let name = technique.page().name;
+        let plain = (technique.boxed(), Vec::new());
+        for (technique, settings) in [plain].into_iter().chain(sets(technique.as_ref())) {
+            if known.insert(technique::spec(technique.as_ref())) {
+                let dot = if settings.is_empty() { "" } else { "." };
+                specs.push(format!("{name}{dot}{}", settings.join(",")));
+            }
+        }
+    }
+    specs
+}
+
+/// A set with each of its settings changed.
+fn singles((technique, settings): &Set) -> Vec<Set> {
+    let mut sets = Vec::new();
+    for (name, values) in technique.boxed().parameters().iter().map(|p| (p.name, values(p))) {
+        for value in values {
+            let mut technique = technique.boxed();
+            if set(technique.as_mut(), name, &value).is_ok() {
+                let mut settings = settings.clone();
+                settings.push(format!("{name}={value}"));
+                sets.push((technique, settings));
+            }
+        }
+    }
+    sets
+}
+
+/// Every combination of choices.
+fn products(alone: Set) -> Vec<Set> {
+    let is_choice = |p: &Parameter<'_>| matches!(p.field, Field::Choice(_));
+    let mut plain = alone.0.boxed();
+    let choices: Vec<_> =
+        plain.parameters().iter().filter(|p| is_choice(p)).map(|p| (p.name, values(p))).collect();
+    choices.into_iter().fold(vec![alone], |sets, (name, values)| {
+        let with = |(technique, settings): &Set, value: &String| {
+            let (mut technique, mut settings) = (technique.boxed(), settings.clone());
+            set(technique.as_mut(), name, value).ok()?;
+            settings.push(format!("{name}={value}"));
+            Some((technique, settings))
+        };
+        sets.iter().flat_map(|set| values.iter().filter_map(move |value| with(set, value))).collect()
+    })
+}
+
+/// Values to try.
+fn values(parameter: &Parameter<'_>) -> Vec<String> {
+    const FEW: u32 = 8;
+    let whole = |low: u32, high: u32, step: u32| -> Vec<u32> {
+        if high - low < FEW * step {
+            (low..=high).step_by(step as usize).collect()
+        } else {
+            vec![low, low + step, high]
+        }
+    };
+    let text = |values: Vec<u32>| values.iter().map(u32::to_string).collect();
+    match &parameter.field {
+        Field::Number(_, range) => vec![range.start().to_string(), range.end().to_string()],
+        Field::Count(_, range) => text(whole(*range.start(), *range.end(), 1)),
+        Field::Odd(_, range) => text(whole(*range.start(), *range.end(), 2)),
+        Field::Choice(choice) => choice.names().iter().map(|name| (*name).to_string()).collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_value_of_every_choice_is_among_them() {
+        let [few, all] = [single(), many()];
+        assert!(all.len() > 4 * few.len(), "{} of {}", few.len(), all.len());
+        for spec in few.iter().chain(&all) {
+            technique::parse(spec).unwrap();
+        }
+        for mut technique in technique::all() {
+            let name = technique.page().name;
+            for p in technique.parameters() {
+                let Field::Choice(choice) = &p.field else { continue };
+                for value in choice.names().iter().filter(|value| **value != p.value()) {
+                    assert!(few.contains(&format!("{name}.{}={value}", p.name)), "{name}.{}={value}", p.name);
+                }
+            }
+        }
+        // A wide table is one that only summing allows.
+        assert!(all.iter().any(|spec| spec.starts_with("esm.sampling=summed,kernel=255")), "{all:?}");
+    }
+}
