@@ -8,6 +8,8 @@ mod output;
 mod progress;
 mod scene;
 mod techniques;
+#[cfg(test)]
+mod tests;
 mod views;
 
 use clap::Parser;

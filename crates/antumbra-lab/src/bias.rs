@@ -162,7 +162,7 @@ pub fn study(gpu: &Gpu, request: &Request<'_>, progress: &dyn Progress) -> Resul
     for contestant in &contestants {
         let (technique, bias) = &entries[contestant.entry];
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        contestant.encode(&mut encoder, &stage, &lighting);
+        contestant.encode(&mut encoder, &stage, &lighting)?;
         gpu.finish(encoder)?;
         let test = lighting.read_visibility(gpu)?;
         let ideal = ideals.get(&kernel(technique.as_ref())).context("an ideal for every kernel")?;

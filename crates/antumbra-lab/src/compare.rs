@@ -249,7 +249,7 @@ fn render(
 ) -> Result<Rendered> {
     let shadows = &contestant.shadows;
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    contestant.encode(&mut encoder, stage, lighting);
+    contestant.encode(&mut encoder, stage, lighting)?;
     lighting.encode_picture(&mut encoder, stage);
     gpu.finish(encoder)?;
     let test = lighting.read_visibility(gpu)?;

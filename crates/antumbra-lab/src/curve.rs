@@ -62,11 +62,11 @@ fn answers(
                 pass.set_pipeline(&flat);
                 pass.set_scissor_rect(0, 0, columns, SIZE.height);
                 pass.draw(0..3, 0..1);
-            });
+            })?;
         }
         Caster::Triangles(_) | Caster::Lists | Caster::Ranked { .. } => {
             let triangle = triangle(gpu, caster)?;
-            shadows.encode(&mut encoder, |view, pass| triangle.draw(view, pass));
+            shadows.encode(&mut encoder, |view, pass| triangle.draw(view, pass))?;
         }
     }
     let answers = ask(gpu, &shadows, questions, &mut encoder);

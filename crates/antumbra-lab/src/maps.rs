@@ -5,7 +5,7 @@ use crate::{
     gpu::Gpu,
     paint::{self, Anchor, Colour, INK, Letters},
     plane::{Plane, Rgba8Image, diverging},
-    stage::{Casters, Stage},
+    stage::Stage,
     texels,
 };
 use antumbra::{DEPTH_FORMAT, ShadowMap, View};
@@ -98,7 +98,7 @@ pub fn depth(gpu: &Gpu, stage: &mut Stage, view: &View, [width, height]: [u32; 2
             }),
             ..Default::default()
         });
-        stage.draw_casters(&Casters::Depth, view, &mut pass);
+        stage.draw_depth(view, &mut pass);
     }
     gpu.finish(encoder)?;
     let mut planes = texels::planes(DEPTH_FORMAT, [width, height], &gpu.read(&target)?)?;

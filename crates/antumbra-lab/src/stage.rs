@@ -6,7 +6,7 @@
 //! neighbouring pixels see different things.
 
 use crate::gpu::Gpu;
-use antumbra::Capacity;
+use antumbra::{Capacity, CasterPass, View};
 use antumbra_scene::{AlphaMode, Camera, Geometry, Light};
 use anyhow::{Result, bail};
 use bytemuck::{Pod, Zeroable};
@@ -191,20 +191,23 @@ impl Stage {
 
     /// Draws every caster into a shadow map's pass, for one of the views of
     /// [`set_views`](Self::set_views). Opaque ones first, in one draw.
-    pub fn draw_casters(&self, casters: &Casters, view: &antumbra::View, pass: &mut RenderPass<'_>) {
+    pub fn draw_casters(&self, casters: &Casters, view: &View, pass: &mut CasterPass<'_>) {
+        let opaque = self.groups.iter().filter(|g| !g.2).map(|g| g.1.end).max().unwrap_or(0);
+        let Casters::Triangles { mesh, cutout } = casters else { return self.draw_depth(view, pass) };
+        mesh.draw_part(view, pass, 0..opaque / 3);
+        let Some((cutout, attributes)) = cutout else { return };
+        pass.set_pipeline(cutout);
+        pass.set_bind_group(3, attributes, &[]);
+        for (material, range, _) in self.groups.iter().filter(|g| g.2) {
+            pass.set_bind_group(2, &self.materials.groups[*material], &[]);
+            mesh.draw_part(view, pass, range.start / 3..range.end / 3);
+        }
+    }
+
+    /// Draws their depth, as seen from such a view, by pipelines of the stage's own.
+    pub fn draw_depth(&self, view: &View, pass: &mut RenderPass<'_>) {
         let opaque = self.groups.iter().filter(|g| !g.2).map(|g| g.1.end).max().unwrap_or(0);
         let masked = self.groups.iter().filter(|g| g.2);
-        if let Casters::Triangles { mesh, cutout } = casters {
-            mesh.draw_part(view, pass, 0..opaque / 3);
-            let Some((cutout, attributes)) = cutout else { return };
-            pass.set_pipeline(cutout);
-            pass.set_bind_group(3, attributes, &[]);
-            for (material, range, _) in masked {
-                pass.set_bind_group(2, &self.materials.groups[*material], &[]);
-                mesh.draw_part(view, pass, range.start / 3..range.end / 3);
-            }
-            return;
-        }
         let view = self.views.iter().position(|v| v == view);
         debug_assert!(view.is_some(), "casters drawn for a view that set_views was not told of");
         let Some(view) = view else { return };

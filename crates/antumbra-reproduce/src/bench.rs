@@ -436,7 +436,7 @@ impl<'a> Bench<'a> {
             let contestant = entered.contestants.first().context("no technique")?;
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
             let shadows = &contestant.shadows;
-            shadows.encode(&mut encoder, |view, pass| stage.draw_casters(&contestant.casters, view, pass));
+            shadows.encode(&mut encoder, |view, pass| stage.draw_casters(&contestant.casters, view, pass))?;
             gpu.finish(encoder)?;
             let mut sheet = Sheet::default();
             sheet.add(&maps::depth(gpu, &mut stage, &view, [map; 2])?);
@@ -463,7 +463,7 @@ fn sound(entered: Entered) -> (Vec<Contestant>, Vec<LeftOut>) {
 fn look(gpu: &Gpu, stage: &Stage, lighting: &Lighting, contestant: &Contestant, spec: &str) -> Result<Look> {
     let shadows: &ShadowMap = &contestant.shadows;
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    contestant.encode(&mut encoder, stage, lighting);
+    contestant.encode(&mut encoder, stage, lighting)?;
     lighting.encode_picture(&mut encoder, stage);
     gpu.finish(encoder)?;
     let visibility = lighting.read_visibility(gpu)?;

@@ -72,7 +72,7 @@ pub fn run(device: &wgpu::Device, queue: &wgpu::Queue) -> Result<Vec<u8>, Box<dy
         pass.set_pipeline(&cast);
         pass.set_bind_group(0, &from_sun, &[]);
         mesh.draw(pass);
-    });
+    })?;
 
     // 4. Receivers bind one group.
     Ok(common::render(device, queue, encoder, |pass| {

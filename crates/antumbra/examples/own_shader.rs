@@ -1,12 +1,13 @@
 //! `shadow_visibility` inside a larger shader: a long street under three cascades, fog, a specular
-//! highlight; two techniques side by side.
+//! highlight; any two techniques side by side, whatever their casters leave.
 //!
 //! `cargo run --release -p antumbra --example own_shader -- street.png hard csm.terms=8`
 
 mod common;
 
 use antumbra::{
-    Bounds, CASTER_WGSL, Capabilities, Cascades, Light, Options, ShadowMap, Size, Stage, technique,
+    Bounds, CASTER_WGSL, Capabilities, Cascades, CasterMesh, Light, Options, ShadowMap, Size, Stage,
+    technique::{self, Caster},
 };
 use common::{HEIGHT, Mesh, WIDTH};
 use glam::{Mat4, Vec3, camera::rh};
@@ -88,6 +89,9 @@ pub fn run(
     let entry = if Capabilities::of(device).clamps_depth() { "clamped" } else { "pancaked" };
     let cast = common::pipeline(device, &caster, &[Some(&uniforms)], entry, None);
 
+    let [positions, indices] = mesh.storage(device);
+    let triangles = CasterMesh::new(device, &positions, &indices, 0..mesh.triangles(), Mat4::IDENTITY)?;
+
     let mut encoder = device.create_command_encoder(&Default::default());
     let mut halves = Vec::new();
     for spec in specs {
@@ -103,15 +107,21 @@ pub fn run(
             },
             Cascades::new(3),
         )?;
-        let matrices: Vec<_> =
-            views.iter().map(|v| common::uniform(device, &uniforms, v.clip_from_world)).collect();
         shadows.prepare(queue, &views)?;
-        let mut next = matrices.iter();
-        shadows.encode(&mut encoder, |_, pass| {
-            pass.set_pipeline(&cast);
-            pass.set_bind_group(0, next.next(), &[]);
-            mesh.draw(pass);
-        });
+        if technique.caster() == Caster::Depth {
+            // Those of `prepare`, or several for each (`stratified`): one for each time that it asks.
+            let casts = shadows.caster_views().iter();
+            let matrices: Vec<_> =
+                casts.map(|v| common::uniform(device, &uniforms, v.clip_from_world)).collect();
+            let mut next = matrices.iter();
+            shadows.encode(&mut encoder, |_, pass| {
+                pass.set_pipeline(&cast);
+                pass.set_bind_group(0, next.next(), &[]);
+                mesh.draw(pass);
+            })?;
+        } else {
+            shadows.encode(&mut encoder, |view, pass| triangles.draw(view, pass))?;
+        }
 
         let source = shadows.wgsl(1).after(SHADER);
         let module = device.create_shader_module(wgpu::ShaderModuleDescriptor { label: None, source });

@@ -94,6 +94,31 @@ pub enum Unsupported {
         /// What to do.
         instead: String,
     },
+    /// Less memory than the map takes.
+    #[error(
+        "the device has no memory for {technique} with {views} views of {width}×{height} texels, {} MiB in all; take a smaller map, fewer views, or a technique or storage with fewer bytes per texel", bytes / (1 << 20)
+    )]
+    Memory {
+        /// Name of the technique.
+        technique: String,
+        /// Texels across.
+        width: u32,
+        /// Texels down.
+        height: u32,
+        /// Views that it was to have room for.
+        views: u32,
+        /// What it would have taken, the caller's depth included.
+        bytes: u64,
+    },
+    /// The device takes a shader or an object for invalid: that of a technique of the caller's own, or a
+    /// mistake in this library.
+    #[error("the device refuses what {technique} is made of: {reason}")]
+    Refused {
+        /// Name of the technique.
+        technique: String,
+        /// What the device says.
+        reason: String,
+    },
     /// Depth alone does not hold what the technique keeps.
     #[error(
         "{technique} keeps triangles, which a depth texture does not hold; use ShadowMap::new and draw CasterMesh in the closure of encode"
@@ -115,6 +140,28 @@ pub enum Unsupported {
     /// A setting of the technique is out of range.
     #[error(transparent)]
     Setting(#[from] SettingError),
+}
+
+/// Why casters leave no shadow in a map.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum CasterError {
+    /// The closure of [`ShadowMap::encode`](crate::ShadowMap::encode) used its pass, but drew no
+    /// [`CasterMesh`](crate::CasterMesh).
+    #[error(
+        "{technique} keeps triangles, and the closure of encode drew no CasterMesh: what other pipelines draw there leaves no shadow; call CasterMesh::draw, or take a technique that keeps depth"
+    )]
+    OwnPipelines {
+        /// Name of the technique.
+        technique: String,
+    },
+    /// The closure drew a [`CasterMesh`](crate::CasterMesh).
+    #[error(
+        "{technique} keeps depth, and the closure of encode drew a CasterMesh, which leaves no shadow there; draw casters with pipelines of your own that write depth"
+    )]
+    Mesh {
+        /// Name of the technique.
+        technique: String,
+    },
 }
 
 /// Why buffers are no [`CasterMesh`](crate::CasterMesh).

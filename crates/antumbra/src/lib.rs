@@ -36,14 +36,48 @@
 //!     shadows.prepare(queue, &[view])?;
 //!     shadows.encode(&mut encoder, |view, pass| {
 //!         // … draw your casters' depth with `view.clip_from_world`.
-//!     });
+//!     })?;
 //!     // … in your pass: pass.set_bind_group(2, shadows.bind_group(), &[]);
 //!     Ok(())
 //! }
 //! ```
 //!
-//! The examples `hello`, `own_shader` (cascades, a larger shader, two techniques side by side) and
-//! `own_depth` (a depth pass that the renderer already has) are whole programs.
+//! The examples are whole programs: `quick_start` and `hello`, `own_shader` (cascades, a larger shader, two
+//! techniques side by side) and `own_depth` (a depth pass that the renderer already has).
+//!
+//! # Versions
+//!
+//! | antumbra | wgpu | glam | Rust |
+//! | --- | --- | --- | --- |
+//! | 0.1 | 30 | 0.34 | 1.95 |
+//!
+//! Types of [`wgpu`] and [`glam`] are part of the interface, so versions must agree; both are exported
+//! again. antumbra switches on none of wgpu's backends: your own dependency on it says which you ship.
+//!
+//! # Casters and receivers
+//!
+//! - What casters draw depends on what a technique keeps ([`Technique::caster`]). Most keep depth, which your
+//!   own pipelines draw once per view; `stratified` asks for it n² times per view, each time from a view
+//!   that is shifted by a fraction of a texel, so place casters by the view that the closure gets. `rgsm`,
+//!   `spsm`, `dpm` and `exact` keep triangles, which [`CasterMesh`] draws by pipelines of the library. The
+//!   other kind is a [`CasterError`].
+//! - Casters in front of a view's near plane must still cast: set `unclipped_depth` in your caster
+//!   pipelines where the device [can](Capabilities::clamps_depth), elsewhere call `caster_pancaked` of
+//!   [`CASTER_WGSL`] in their vertex shader.
+//! - `shadow_visibility(position, normal, ddx, ddy)` takes world space. `normal` is that of the facet, of unit
+//!   length, either side: the cross product of the triangle's edges, or of `dpdx(position)` and
+//!   `dpdy(position)`; not the interpolated or bumped one. What has no surface, such as fog, passes the
+//!   direction towards the light, and zero for `ddx` and `ddy`, which are the change of position from
+//!   this pixel to the next.
+//! - It is 1, lit, outside every view: beyond the last cascade, beside the square around a spot's cone,
+//!   where there is no view.
+//! - Cascades reach as far as [`Stage::camera`] sees of [`Stage::scene`]: a finite far plane there is the
+//!   distance up to which there are shadows.
+//! - A point light is six spots with an outer angle of 45° along ±x, ±y and ±z, until there is one: six
+//!   views of one map.
+//! - [`ShadowMap::prepare`] writes buffers through the queue: all passes of a submission see what was written
+//!   last. Two cameras or two lights are two maps; [`Pipelines`] lets them share what was compiled. One
+//!   shader takes one map for now: the functions of all have the same names.
 //!
 //! # Techniques
 //!
@@ -68,13 +102,16 @@
 //! | `exact` | [`Exact`] | 16 bytes and 4 per triangle in it, 48 per triangle of the scene | 2 and 4 per triangle in a list | what rays see, whatever the size of the map; memory follows from the scene ([`Capacity`]) |
 //!
 //! A technique is a value whose public fields are its settings; [`technique::parse`] reads them from
-//! text (`esm.c=60,kernel=7`) and [`technique::all`] lists them. All of them run through the same
-//! four rooms, and nothing flows back:
+//! text (`esm.c=60,kernel=7`) and [`technique::all`] lists them. Data goes through four rooms, and nothing
+//! flows back:
 //!
-//! 1. **cast**: you draw the casters' depth, or already have it ([`ShadowMap::from_depth`]);
+//! 1. **cast**: you draw the casters' depth, or already have it ([`ShadowMap::from_depth`]), or let
+//!    [`CasterMesh`] draw triangles;
 //! 2. **convert**: each texel of depth becomes what the technique keeps, such as moments;
-//! 3. **pre-filter**: blur and mip chain ([`Filter`]); comparison techniques have none of 2 and 3;
+//! 3. **pre-filter**: blur and mip chain ([`Filter`]);
 //! 4. **look up**: `shadow_visibility` reads the map and bounds the share of light.
+//!
+//! Where the casters' own depth is compared, and where triangles are kept, there is neither 2 nor 3.
 //!
 //! To add a technique of your own, implement [`Technique`]; nothing in the crate knows the list.
 //!
@@ -112,6 +149,12 @@
 //! # Features
 //!
 //! `serde`: settings of techniques, [`Filter`] and [`technique::Bias`] can be saved and loaded.
+
+/// The code of the README.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
 mod bias;
 mod bound;
 mod camera;
@@ -129,16 +172,19 @@ mod shader;
 mod table;
 pub mod technique;
 
+pub use glam;
+pub use wgpu;
+
 pub use camera::visible_hull;
 pub use capabilities::Capabilities;
 pub use cascade::{Cascades, Stage};
-pub use error::{LightError, MeshError, SettingError, Unsupported};
+pub use error::{CasterError, LightError, MeshError, SettingError, Unsupported};
 pub use filter::{Filter, Sampling, Values};
 pub use kernel::{Kernel, Weights};
 pub use light::{Bounds, Fit, Light, Size, View};
 pub use map::{
-    Capacity, CasterMesh, DEPTH_FORMAT, Lifetime, Memory, MemoryItem, MeshPart, NoProbe, Options, Pipelines,
-    Probe, ShadowMap, TooManyViews,
+    Capacity, CasterMesh, CasterPass, DEPTH_FORMAT, Lifetime, Memory, MemoryItem, MeshPart, NoProbe, Options,
+    Pipelines, Probe, ShadowMap, TooManyViews,
 };
 pub use parameter::{Choice, Field, Parameter};
 pub use precision::Precision;

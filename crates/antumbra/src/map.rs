@@ -2,7 +2,7 @@
 
 use crate::{
     capabilities::Capabilities,
-    error::Unsupported,
+    error::{CasterError, Unsupported},
     light::{Size, View},
     pass,
     shader::{self, ShaderText},
@@ -10,9 +10,11 @@ use crate::{
 };
 use glam::Vec2;
 use std::sync::atomic::{AtomicU32, Ordering};
-use wgpu::{RenderPass, TextureFormat};
+use wgpu::TextureFormat;
 
+mod answer;
 mod capacity;
+mod cast;
 mod caster;
 mod check;
 mod draw;
@@ -28,8 +30,11 @@ mod receiver;
 mod textures;
 mod uniforms;
 
+use answer::Refusal;
 pub use capacity::Capacity;
 pub(crate) use capacity::splits;
+pub use cast::CasterPass;
+use cast::Drawn;
 use caster::TriangleCaster;
 use draw::Draw;
 use lists::{ListSize, Lists};
@@ -150,13 +155,32 @@ impl ShadowMap {
     /// Allocates everything for casters that are drawn by [`encode`](Self::encode).
     ///
     /// # Errors
-    /// [`Unsupported`]: size, number of views, settings or device.
+    /// [`Unsupported`]: size, number of views, settings, device, or its memory. In a browser, where devices
+    /// answer later, a lack of memory goes to the caller's error scope or handler; see
+    /// [`new_async`](Self::new_async).
     pub fn new(
         device: &wgpu::Device,
         technique: &dyn Technique,
         options: impl Into<Options>,
     ) -> Result<Self, Unsupported> {
-        Self::build(device, technique, &options.into(), None)
+        let options = options.into();
+        let (map, refusal) = answer::ask_now(device, || Self::build(device, technique, &options, None));
+        map?.unless(refusal)
+    }
+
+    /// [`new`](Self::new), which also waits for the answer of devices that do not answer at once: those of
+    /// browsers.
+    ///
+    /// # Errors
+    /// [`Unsupported`], a lack of memory in browsers too.
+    pub async fn new_async(
+        device: &wgpu::Device,
+        technique: &dyn Technique,
+        options: impl Into<Options>,
+    ) -> Result<Self, Unsupported> {
+        let options = options.into();
+        let (map, refusal) = answer::ask(device, || Self::build(device, technique, &options, None));
+        map?.unless(refusal.await)
     }
 
     /// Reads depth that the caller renders herself: a 2-D texture of any depth format (beside a
@@ -177,7 +201,23 @@ impl ShadowMap {
         let views = check::depth(depth, technique.jitter().len() as u32)?;
         let size = Size { width: depth.width(), height: depth.height() };
         let options = Options { size, views, ..options.into() };
-        Self::build(device, technique, &options, Some(depth))
+        let (map, refusal) =
+            answer::ask_now(device, || Self::build(device, technique, &options, Some(depth)));
+        map?.unless(refusal)
+    }
+
+    /// Itself, unless the device refused what it is made of.
+    fn unless(self, refusal: Option<Refusal>) -> Result<Self, Unsupported> {
+        let technique = self.technique.page().name.to_string();
+        match refusal {
+            None => Ok(self),
+            Some(Refusal::Memory) => {
+                let Size { width, height } = self.size;
+                let bytes = self.memory().items.iter().map(|item| item.bytes).sum();
+                Err(Unsupported::Memory { technique, width, height, views: self.room, bytes })
+            }
+            Some(Refusal::Invalid(reason)) => Err(Unsupported::Refused { technique, reason }),
+        }
     }
 
     fn build(
@@ -293,17 +333,33 @@ impl ShadowMap {
     /// [`caster`](Technique::caster) is not [`Caster::Depth`], the pass has its pipeline and group 0 set, and
     /// `draw`, which is called once per layer of [`Caster::Triangles`], twice for [`Caster::Lists`], calls
     /// [`CasterMesh::draw`].
-    pub fn encode(&self, encoder: &mut wgpu::CommandEncoder, draw: impl FnMut(&View, &mut RenderPass<'_>)) {
-        self.encode_probed(encoder, &mut NoProbe, draw);
+    ///
+    /// # Errors
+    /// [`CasterError`] if what was drawn is not what the technique keeps. All passes are encoded
+    /// nevertheless, and nothing casts a shadow.
+    pub fn encode(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        draw: impl FnMut(&View, &mut CasterPass<'_>),
+    ) -> Result<(), CasterError> {
+        self.encode_probed(encoder, &mut NoProbe, draw)
     }
 
     /// [`encode`](Self::encode) with a probe in every pass.
+    ///
+    /// # Errors
+    /// As `encode`.
     pub fn encode_probed(
         &self,
         encoder: &mut wgpu::CommandEncoder,
         probe: &mut dyn Probe,
-        mut draw: impl FnMut(&View, &mut RenderPass<'_>),
-    ) {
+        mut draw: impl FnMut(&View, &mut CasterPass<'_>),
+    ) -> Result<(), CasterError> {
+        let mut drawn = Drawn::default();
+        let mut draw = |view: &View, pass: &mut CasterPass<'_>| {
+            draw(view, pass);
+            drawn.add(pass);
+        };
         let last = self.jitter.len() - 1;
         self.drawn.store(0, Ordering::Relaxed);
         for view in 0..self.views.len() {
@@ -326,6 +382,7 @@ impl ShadowMap {
                 self.encode_view_filter(encoder, view, follows, probe);
             }
         }
+        drawn.check(self.technique.as_ref())
     }
 
     /// What casters that number triangles have in common.
@@ -346,7 +403,7 @@ impl ShadowMap {
         encoder: &mut wgpu::CommandEncoder,
         (view, cast, layer): (usize, usize, usize),
         probe: &mut dyn Probe,
-        draw: &mut impl FnMut(&View, &mut RenderPass<'_>),
+        draw: &mut impl FnMut(&View, &mut CasterPass<'_>),
     ) {
         let target = self.triangles.is_some().then(|| self.textures.map_target(view, layer));
         let target = target.map(textures::written);
@@ -369,6 +426,7 @@ impl ShadowMap {
             pass.set_pipeline(triangles.pipeline(&self.views[view], layer));
             pass.set_bind_group(0, triangles.group(view, layer), &[]);
         }
+        let mut pass = CasterPass::new(pass, self.triangles.is_some());
         draw(&self.caster_views[view * self.jitter.len() + cast], &mut pass);
     }
 

@@ -16,9 +16,12 @@ macro_rules! example {
         mod $name;
     };
 }
+example!(quick_start, "../examples/quick_start.rs");
 example!(hello, "../examples/hello.rs");
 example!(own_shader, "../examples/own_shader.rs");
 example!(own_depth, "../examples/own_depth.rs");
+example!(compute, "../examples/compute.rs");
+example!(skinning, "../examples/skinning.rs");
 
 const WIDTH: u32 = 640;
 const HEIGHT: u32 = 480;
@@ -54,24 +57,48 @@ fn hello(gpu: &Gpu) {
     check(&picture, hello::camera(), &[Vec3::new(-3.0, 0.0, 3.0), Vec3::new(0.0, 0.0, 4.0)], &[slab, tower]);
 }
 
-/// Both halves, near and far: two cascades at least.
-fn own_shader(gpu: &Gpu) {
-    let picture = own_shader::run(&gpu.device, &gpu.queue, ["hard", "csm"]).unwrap();
-    let sun = Vec3::new(0.64, 0.64, 0.43);
-    let shadow = |x, z| on_ground(Vec3::new(x, 2.0, z), sun);
+/// What the README shows, near and far: two cascades at least.
+fn quick_start(gpu: &Gpu) {
+    let picture = quick_start::run(&gpu.device, &gpu.queue).unwrap();
+    let shadow = |x, z| on_ground(Vec3::new(x, 1.5, z), Vec3::new(-0.7, 1.0, 0.25));
     check(
         &picture,
-        own_shader::camera(),
-        &[
-            Vec3::new(-3.0, 0.0, 5.5),
-            Vec3::new(2.0, 0.0, 5.5),
-            Vec3::new(-4.0, 0.0, -5.0),
-            Vec3::new(1.5, 0.0, -5.0),
-        ],
-        &[shadow(-1.2, 4.0), shadow(4.0, 4.0), shadow(-1.2, -6.0), shadow(4.0, -6.0)],
+        quick_start::camera(),
+        &[Vec3::new(-1.5, 0.0, 2.0), Vec3::new(2.0, 0.0, -9.0), Vec3::new(-2.0, 0.0, -22.0)],
+        &[shadow(0.0, 0.0), shadow(4.0, -6.0), shadow(-4.0, -18.0)],
     );
+}
+
+/// The README's code is the code that runs.
+fn readme() {
+    let example = include_str!("../examples/quick_start.rs");
+    let shown = example.split("// README\n").nth(1).unwrap();
+    assert!(include_str!("../README.md").contains(shown), "the README shows other code than quick_start");
+}
+
+/// Every technique, in both halves, near and far: two cascades at least.
+fn own_shader(gpu: &Gpu) {
+    let names: Vec<&str> = antumbra::technique::all().iter().map(|t| t.page().name).collect();
+    let last = [names[0], names[names.len() - 1]];
+    let sun = Vec3::new(0.64, 0.64, 0.43);
+    let shadow = |x, z| on_ground(Vec3::new(x, 2.0, z), sun);
+    for pair in names.windows(2).step_by(2).map(|pair| [pair[0], pair[1]]).chain([last]) {
+        let picture = own_shader::run(&gpu.device, &gpu.queue, pair).unwrap();
+        check(
+            &picture,
+            own_shader::camera(),
+            &[
+                Vec3::new(-3.0, 0.0, 5.5),
+                Vec3::new(2.0, 0.0, 5.5),
+                Vec3::new(-4.0, 0.0, -5.0),
+                Vec3::new(1.5, 0.0, -5.0),
+            ],
+            &[shadow(-1.2, 4.0), shadow(4.0, 4.0), shadow(-1.2, -6.0), shadow(4.0, -6.0)],
+        );
+    }
     // The techniques differ along the edges, so the halves cannot have been swapped or shared.
-    let other = own_shader::run(&gpu.device, &gpu.queue, ["csm", "hard"]).unwrap();
+    let [picture, other] = [["hard", "csm"], ["csm", "hard"]]
+        .map(|pair| own_shader::run(&gpu.device, &gpu.queue, pair).unwrap());
     let image = |bytes| Image { width: WIDTH, height: HEIGHT, channels: 4, bytes };
     image(picture).compare(&image(other), Tolerance { mean: 0.0, max: 0 }).unwrap_err();
 }
@@ -89,10 +116,37 @@ fn own_depth(gpu: &Gpu) {
     );
 }
 
+/// From above: fog is dark where it is in shadow all the way up, and lit elsewhere.
+fn compute(gpu: &Gpu) {
+    let picture = compute::run(&gpu.device, &gpu.queue).unwrap();
+    let sun = Vec3::new(-0.7, 1.0, 0.25);
+    // Under the slab, and half way down the shadow of the tower.
+    let slab = on_ground(Vec3::new(1.5, 0.9, -1.0), sun);
+    let tower = on_ground(Vec3::new(-2.7, 0.3, 1.0), sun);
+    let lit = [Vec3::new(-6.0, 0.0, 3.0), Vec3::new(5.0, 0.0, 4.0)];
+    check(&picture, compute::camera(), &lit, &[slab, tower]);
+}
+
+/// The column's shadow bends with it, for techniques whose casters leave depth, and triangles.
+fn skinning(gpu: &Gpu) {
+    for spec in ["vsm", "stratified", "spsm", "dpm", "exact"] {
+        let picture = skinning::run(&gpu.device, &gpu.queue, spec).unwrap();
+        let sun = Vec3::new(-0.7, 1.0, 0.25);
+        // Above the knee at rest, and as far above it along the bent half.
+        let upright = on_ground(Vec3::new(0.0, 3.5, 0.0), sun);
+        let bent = on_ground(Vec3::new(0.0, 2.0 + 1.5 * 0.9_f32.cos(), 1.5 * 0.9_f32.sin()), sun);
+        check(&picture, skinning::camera(), &[upright, Vec3::new(-3.0, 0.0, 3.0)], &[bent, bent]);
+    }
+}
+
 fn main() {
     let mut trials = Trials::default();
+    trials.add("quick_start", quick_start);
+    trials.add_plain("the README's code is quick_start's", readme);
     trials.add("hello", hello);
     trials.add("own_shader", own_shader);
     trials.add("own_depth", own_depth);
+    trials.add("compute", compute);
+    trials.add("skinning", skinning);
     trials.run();
 }

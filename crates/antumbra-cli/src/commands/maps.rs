@@ -34,7 +34,7 @@ pub(crate) fn run(arguments: &Maps) -> Result<()> {
     let Some(contestant) = entered.contestants.first() else { bail!("no technique was named") };
     let shadows = &contestant.shadows;
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    shadows.encode(&mut encoder, |view, pass| stage.draw_casters(&contestant.casters, view, pass));
+    shadows.encode(&mut encoder, |view, pass| stage.draw_casters(&contestant.casters, view, pass))?;
     gpu.finish(encoder)?;
     let mut written = Vec::new();
     let folder = files::write_folder(&arguments.output, |folder| -> Result<()> {

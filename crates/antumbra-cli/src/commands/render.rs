@@ -64,7 +64,7 @@ pub(crate) fn run(arguments: &Render) -> Result<()> {
             lighting.write_visibility(&gpu, &Plane::new(width, height, hard.values)?);
         }
         Some(contestant) => {
-            contestant.encode(&mut encoder, &stage, &lighting);
+            contestant.encode(&mut encoder, &stage, &lighting)?;
         }
     }
     lighting.encode_picture(&mut encoder, &stage);

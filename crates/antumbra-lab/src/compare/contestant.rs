@@ -84,7 +84,7 @@ impl Contestant {
 
     fn cast(&mut self, gpu: &Gpu, stage: &Stage) -> Result<()> {
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        self.shadows.encode(&mut encoder, |view, pass| stage.draw_casters(&self.casters, view, pass));
+        self.shadows.encode(&mut encoder, |view, pass| stage.draw_casters(&self.casters, view, pass))?;
         gpu.finish(encoder)?;
         self.occupancy = Occupancy::read(gpu, &self.shadows)?;
         Ok(())
@@ -97,9 +97,18 @@ impl Contestant {
     }
 
     /// Draws its maps and, on the surfaces that the stage already holds, its visibility.
-    pub fn encode(&self, encoder: &mut wgpu::CommandEncoder, stage: &Stage, lighting: &Lighting) {
-        self.shadows.encode(encoder, |view, pass| stage.draw_casters(&self.casters, view, pass));
+    ///
+    /// # Errors
+    /// If its casters are not of the kind that its technique keeps.
+    pub fn encode(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        stage: &Stage,
+        lighting: &Lighting,
+    ) -> Result<()> {
+        self.shadows.encode(encoder, |view, pass| stage.draw_casters(&self.casters, view, pass))?;
         lighting.encode_lookup(encoder, stage, &self.lookup, Some(&self.shadows), None);
+        Ok(())
     }
 
     /// Class of every pixel, as [`shares`](crate::classes::shares) takes them, if the technique has

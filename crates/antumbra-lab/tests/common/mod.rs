@@ -79,7 +79,7 @@ impl Shot {
         let lookup = Lookup::new(&self.gpu, &self.stage, shadows);
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         let casters = Casters::new(&self.gpu, &self.stage, shadows).unwrap();
-        shadows.encode(&mut encoder, |view, pass| self.stage.draw_casters(&casters, view, pass));
+        shadows.encode(&mut encoder, |view, pass| self.stage.draw_casters(&casters, view, pass)).unwrap();
         self.stage.encode_surfaces(&mut encoder, None);
         self.lighting.encode_lookup(&mut encoder, &self.stage, &lookup, Some(shadows), None);
         self.gpu.finish(encoder).unwrap();

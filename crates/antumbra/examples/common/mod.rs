@@ -33,7 +33,7 @@ pub fn device() -> (Device, Queue) {
 #[derive(Debug)]
 pub struct Mesh {
     vertices: wgpu::Buffer,
-    count: u32,
+    positions: Vec<Vec3>,
 }
 
 impl Mesh {
@@ -42,14 +42,26 @@ impl Mesh {
         let vertices: Vec<[Vec3; 2]> =
             boxes.iter().flat_map(|(centre, half)| cuboid(*centre, *half)).collect();
         Self {
-            count: vertices.len() as u32,
+            positions: vertices.iter().map(|[position, _]| *position).collect(),
             vertices: buffer(device, bytemuck::cast_slice(&vertices), wgpu::BufferUsages::VERTEX),
         }
     }
 
+    pub fn triangles(&self) -> u32 {
+        self.positions.len() as u32 / 3
+    }
+
+    /// Positions alone, and indices, for shaders that read them.
+    pub fn storage(&self, device: &Device) -> [wgpu::Buffer; 2] {
+        let indices: Vec<u32> = (0..3 * self.triangles()).collect();
+        let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::INDEX;
+        [bytemuck::cast_slice(&self.positions), bytemuck::cast_slice(&indices)]
+            .map(|bytes| buffer(device, bytes, usage))
+    }
+
     pub fn draw(&self, pass: &mut RenderPass<'_>) {
         pass.set_vertex_buffer(0, self.vertices.slice(..));
-        pass.draw(0..self.count, 0..1);
+        pass.draw(0..3 * self.triangles(), 0..1);
     }
 }
 
@@ -102,6 +114,30 @@ pub fn pipeline(
     vertex: &str,
     fragment: Option<&str>,
 ) -> RenderPipeline {
+    let attributes = wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3];
+    pipeline_of(device, module, groups, [vertex, fragment.unwrap_or_default()], &attributes)
+}
+
+/// The same for vertices that are positions alone.
+pub fn pipeline_of_positions(
+    device: &Device,
+    module: &wgpu::ShaderModule,
+    groups: &[Option<&BindGroupLayout>],
+    vertex: &str,
+    fragment: Option<&str>,
+) -> RenderPipeline {
+    let attributes = wgpu::vertex_attr_array![0 => Float32x3];
+    pipeline_of(device, module, groups, [vertex, fragment.unwrap_or_default()], &attributes)
+}
+
+fn pipeline_of(
+    device: &Device,
+    module: &wgpu::ShaderModule,
+    groups: &[Option<&BindGroupLayout>],
+    [vertex, fragment]: [&str; 2],
+    attributes: &[wgpu::VertexAttribute],
+) -> RenderPipeline {
+    let fragment = Some(fragment).filter(|entry| !entry.is_empty());
     let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
         bind_group_layouts: groups,
         ..Default::default()
@@ -116,13 +152,12 @@ pub fn pipeline(
             entry_point: Some(vertex),
             compilation_options: Default::default(),
             buffers: &[Some(wgpu::VertexBufferLayout {
-                array_stride: 24,
+                array_stride: attributes.iter().map(|attribute| attribute.format.size()).sum(),
                 step_mode: wgpu::VertexStepMode::Vertex,
-                attributes: &wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3],
+                attributes,
             })],
         },
         primitive: wgpu::PrimitiveState {
-            cull_mode: Some(wgpu::Face::Back),
             unclipped_depth: clamps && fragment.is_none(),
             ..Default::default()
         },
@@ -145,6 +180,61 @@ pub fn pipeline(
     })
 }
 
+/// A buffer that compute shaders fill and that can be read.
+pub fn storage(device: &Device, size: u64) -> wgpu::Buffer {
+    let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC | wgpu::BufferUsages::COPY_DST;
+    device.create_buffer(&wgpu::BufferDescriptor { label: None, size, usage, mapped_at_creation: false })
+}
+
+/// Storage buffers of a compute shader, of which it writes the last.
+pub fn storage_group(device: &Device, buffers: &[&wgpu::Buffer]) -> (BindGroupLayout, BindGroup) {
+    let last = buffers.len() - 1;
+    let entry = |i: usize| wgpu::BindGroupLayoutEntry {
+        binding: i as u32,
+        visibility: wgpu::ShaderStages::COMPUTE,
+        ty: wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Storage { read_only: i < last },
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        },
+        count: None,
+    };
+    let entries: Vec<_> = (0..=last).map(entry).collect();
+    let layout =
+        device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: None, entries: &entries });
+    let bound = (0..).zip(buffers);
+    let entries: Vec<_> = bound
+        .map(|(binding, buffer)| wgpu::BindGroupEntry { binding, resource: buffer.as_entire_binding() })
+        .collect();
+    let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: None,
+        layout: &layout,
+        entries: &entries,
+    });
+    (layout, group)
+}
+
+/// A pipeline for the only entry point of a compute shader.
+pub fn compute_pipeline(
+    device: &Device,
+    source: wgpu::ShaderSource<'_>,
+    groups: &[Option<&BindGroupLayout>],
+) -> wgpu::ComputePipeline {
+    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor { label: None, source });
+    let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        bind_group_layouts: groups,
+        ..Default::default()
+    });
+    device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+        label: None,
+        layout: Some(&layout),
+        module: &module,
+        entry_point: None,
+        compilation_options: Default::default(),
+        cache: None,
+    })
+}
+
 pub fn target(device: &Device, width: u32, height: u32, format: TextureFormat) -> wgpu::Texture {
     let usage = if format == COLOR { TextureUsages::COPY_SRC } else { TextureUsages::TEXTURE_BINDING };
     device.create_texture(&wgpu::TextureDescriptor {
@@ -159,39 +249,42 @@ pub fn target(device: &Device, width: u32, height: u32, format: TextureFormat) -
     })
 }
 
-/// What `draw` draws, as rows of RGBA: [`WIDTH`] × [`HEIGHT`], sky where nothing is.
+/// Draws what `draw` draws into a texture of [`WIDTH`] × [`HEIGHT`] pixels, sky where nothing is.
+pub fn draw(
+    device: &Device,
+    encoder: &mut wgpu::CommandEncoder,
+    color: &wgpu::TextureView,
+    draw: impl FnOnce(&mut RenderPass<'_>),
+) {
+    let depth = target(device, WIDTH, HEIGHT, DEPTH);
+    let sky = wgpu::Color { r: 0.55, g: 0.65, b: 0.8, a: 1.0 };
+    let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+            view: color,
+            depth_slice: None,
+            resolve_target: None,
+            ops: wgpu::Operations { load: wgpu::LoadOp::Clear(sky), store: wgpu::StoreOp::Store },
+        })],
+        depth_stencil_attachment: Some(depth_attachment(&depth.create_view(&Default::default()))),
+        ..Default::default()
+    });
+    draw(&mut pass);
+}
+
+/// What [`draw`] draws, as rows of RGBA.
 pub fn render(
     device: &Device,
     queue: &Queue,
     mut encoder: wgpu::CommandEncoder,
-    draw: impl FnOnce(&mut RenderPass<'_>),
+    draw_all: impl FnOnce(&mut RenderPass<'_>),
 ) -> Vec<u8> {
     let color = target(device, WIDTH, HEIGHT, COLOR);
-    let depth = target(device, WIDTH, HEIGHT, DEPTH);
-    {
-        let sky = wgpu::Color { r: 0.55, g: 0.65, b: 0.8, a: 1.0 };
-        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                view: &color.create_view(&Default::default()),
-                depth_slice: None,
-                resolve_target: None,
-                ops: wgpu::Operations { load: wgpu::LoadOp::Clear(sky), store: wgpu::StoreOp::Store },
-            })],
-            depth_stencil_attachment: Some(depth_attachment(&depth.create_view(&Default::default()))),
-            ..Default::default()
-        });
-        draw(&mut pass);
-    }
-    let staging = device.create_buffer(&wgpu::BufferDescriptor {
-        label: None,
-        size: u64::from(4 * WIDTH * HEIGHT),
-        usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
-        mapped_at_creation: false,
-    });
+    draw(device, &mut encoder, &color.create_view(&Default::default()), draw_all);
+    let pixels = storage(device, u64::from(4 * WIDTH * HEIGHT));
     encoder.copy_texture_to_buffer(
         color.as_image_copy(),
         wgpu::TexelCopyBufferInfo {
-            buffer: &staging,
+            buffer: &pixels,
             layout: wgpu::TexelCopyBufferLayout {
                 offset: 0,
                 bytes_per_row: Some(4 * WIDTH),
@@ -200,6 +293,23 @@ pub fn render(
         },
         color.size(),
     );
+    read(device, queue, encoder, &pixels)
+}
+
+/// What a buffer holds when all of that is done.
+pub fn read(
+    device: &Device,
+    queue: &Queue,
+    mut encoder: wgpu::CommandEncoder,
+    buffer: &wgpu::Buffer,
+) -> Vec<u8> {
+    let staging = device.create_buffer(&wgpu::BufferDescriptor {
+        label: None,
+        size: buffer.size(),
+        usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+        mapped_at_creation: false,
+    });
+    encoder.copy_buffer_to_buffer(buffer, 0, &staging, 0, buffer.size());
     queue.submit([encoder.finish()]);
     staging.slice(..).map_async(wgpu::MapMode::Read, |result| result.expect("a buffer to read"));
     device.poll(wgpu::PollType::wait_indefinitely()).expect("the device to answer");

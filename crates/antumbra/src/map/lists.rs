@@ -4,7 +4,7 @@
 //! [`Caster::Lists`]: crate::technique::Caster::Lists
 
 use super::{
-    Capacity, Probe, draw,
+    Capacity, CasterPass, Probe, draw,
     memory::{Lifetime, MemoryItem},
     numbered::{self, ATOMIC, Numbered, UNIFORM},
     pieces::Pieces,
@@ -21,7 +21,7 @@ use crate::{
 };
 use wgpu::{
     BindGroup, BindGroupLayout, BindingType, Buffer, BufferUsages, CompareFunction, ComputePipeline,
-    RenderPass, ShaderStages, Texture, TextureFormat, TextureView,
+    ShaderStages, Texture, TextureFormat, TextureView,
 };
 
 /// Texels across and, at most, down of textures that are arrays, as in `lists.wgsl.in` and `exact.wgsl`.
@@ -190,7 +190,7 @@ impl Lists {
         (index, view): (usize, &View),
         depth: &TextureView,
         probe: &mut dyn Probe,
-        draw: &mut impl FnMut(&View, &mut RenderPass<'_>),
+        draw: &mut impl FnMut(&View, &mut CasterPass<'_>),
     ) {
         self.counts.clear(encoder, 0..self.extent.texels());
         encoder.clear_buffer(&self.marks, 0, None);

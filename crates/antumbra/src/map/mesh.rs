@@ -1,6 +1,9 @@
 //! Meshes that cast shadows where techniques keep triangles.
 
-use super::caster::{draws_indexed, mesh_layout, number, perspective};
+use super::{
+    CasterPass,
+    caster::{draws_indexed, mesh_layout, number, perspective},
+};
 use crate::{error::MeshError, light::View};
 use glam::Mat4;
 use std::{num::NonZeroU64, ops::Range};
@@ -110,13 +113,15 @@ impl CasterMesh {
 
     /// Draws it in the pass that [`ShadowMap::encode`](crate::ShadowMap::encode) hands out for `view`:
     /// three vertices per triangle, six under a spot, whose triangles may have to be cut.
-    pub fn draw(&self, view: &View, pass: &mut wgpu::RenderPass<'_>) {
+    pub fn draw(&self, view: &View, pass: &mut CasterPass<'_>) {
         self.draw_part(view, pass, self.triangles.clone());
     }
 
     /// Draws some of its triangles, counted from the first index. Leaves out those that
-    /// [`new`](Self::new) was not given.
-    pub fn draw_part(&self, view: &View, pass: &mut wgpu::RenderPass<'_>, triangles: Range<u32>) {
+    /// [`new`](Self::new) was not given. Where the technique keeps depth nothing is drawn, and `encode` says
+    /// so.
+    pub fn draw_part(&self, view: &View, pass: &mut CasterPass<'_>, triangles: Range<u32>) {
+        let Some(pass) = pass.for_mesh() else { return };
         let vertices = 3 * (1 + perspective(view));
         let both = |a: &Range<u32>, b: &Range<u32>| a.start.max(b.start)..a.end.min(b.end);
         let all = both(&triangles, &self.triangles);

@@ -1,7 +1,7 @@
 //! What casters that number triangles have in common: pipelines, views, passes.
 
 use super::{
-    DEPTH_FORMAT, Probe,
+    CasterPass, DEPTH_FORMAT, Probe,
     caster::{self, CasterView, VIEW_BYTES},
     pipelines::Pipelines,
 };
@@ -14,7 +14,7 @@ use crate::{
 use std::num::NonZeroU64;
 use wgpu::{
     BindGroup, BindGroupEntry, BindGroupLayout, BindGroupLayoutEntry, BindingResource, BindingType, Buffer,
-    BufferUsages, CompareFunction, RenderPass, RenderPipeline, ShaderStages, TextureView,
+    BufferUsages, CompareFunction, RenderPipeline, ShaderStages, TextureView,
 };
 
 /// Pipelines that draw all texels that triangles touch, and the views that they draw.
@@ -145,7 +145,7 @@ impl Numbered {
         group: &BindGroup,
         depth: &TextureView,
         probe: &mut dyn Probe,
-        draw: &mut impl FnMut(&View, &mut RenderPass<'_>),
+        draw: &mut impl FnMut(&View, &mut CasterPass<'_>),
     ) {
         let writes = self.depth != CompareFunction::Always;
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
@@ -166,7 +166,7 @@ impl Numbered {
         pass.set_pipeline(self.pipeline(view));
         pass.set_bind_group(0, group, &[]);
         caster::number_anew();
-        draw(view, &mut pass);
+        draw(view, &mut CasterPass::new(pass, true));
     }
 }
 

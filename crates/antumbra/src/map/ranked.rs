@@ -5,7 +5,7 @@
 //! [`Caster::Ranked`]: crate::technique::Caster::Ranked
 
 use super::{
-    Capacity, Probe,
+    Capacity, CasterPass, Probe,
     memory::{Lifetime, MemoryItem},
     numbered::{self, ATOMIC, Numbered, UNIFORM},
     pieces::Pieces,
@@ -17,9 +17,7 @@ use crate::{
     shader::split::{Split, Splits},
     technique::{Ranked, Technique},
 };
-use wgpu::{
-    BindGroup, BindGroupLayout, Buffer, BufferUsages, CompareFunction, RenderPass, ShaderStages, TextureView,
-};
+use wgpu::{BindGroup, BindGroupLayout, Buffer, BufferUsages, CompareFunction, ShaderStages, TextureView};
 
 /// Bytes of a key.
 const KEY: u64 = 4;
@@ -121,7 +119,7 @@ impl RankedTriangles {
         (index, view): (usize, &View),
         depth: &TextureView,
         probe: &mut dyn Probe,
-        draw: &mut impl FnMut(&View, &mut RenderPass<'_>),
+        draw: &mut impl FnMut(&View, &mut CasterPass<'_>),
     ) {
         let (view_keys, index_of) = (self.extent.view_keys(), index as u64);
         self.keys.clear(encoder, index_of * view_keys..(index_of + 1) * view_keys);

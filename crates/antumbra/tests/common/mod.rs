@@ -4,7 +4,7 @@
 #![allow(dead_code, unreachable_pub, reason = "each test program uses a part")]
 
 use antumbra::{
-    CasterMesh, NoProbe, Options, Pipelines, ShadowMap, Size, Technique, View, technique::Caster,
+    CasterMesh, CasterPass, NoProbe, Options, Pipelines, ShadowMap, Size, Technique, View, technique::Caster,
 };
 use antumbra_testing::Gpu;
 use glam::{Mat4, Vec2, Vec3, Vec4};
@@ -289,10 +289,10 @@ fn triangle_map(
     let mut shadows = ShadowMap::new(&gpu.device, technique, options).unwrap();
     shadows.prepare(&gpu.queue, views).unwrap();
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    shadows.encode(&mut encoder, |view, pass| {
-        let layer = views.iter().position(|v| v == view).unwrap();
-        meshes[layer].draw(view, pass);
-    });
+    let draw = |view: &View, pass: &mut CasterPass<'_>| {
+        meshes[views.iter().position(|v| v == view).unwrap()].draw(view, pass);
+    };
+    shadows.encode(&mut encoder, draw).unwrap();
     gpu.queue.submit([encoder.finish()]);
     shadows
 }

@@ -2,7 +2,9 @@
 
 use super::{INPUTS, Row, geometry::overlaps, row, rows, run};
 use crate::common::{Random, caster_mesh, compute, view};
-use antumbra::{Capacity, Exact, Lifetime, Options, ShadowMap, Size, Technique, View, technique::exact};
+use antumbra::{
+    Capacity, CasterPass, Exact, Lifetime, Options, ShadowMap, Size, Technique, View, technique::exact,
+};
 use antumbra_testing::Gpu;
 use glam::{DVec2, Mat4, Vec2, Vec3};
 use std::collections::BTreeSet;
@@ -50,11 +52,12 @@ pub(super) fn drawn(
     // Twice: nothing of the first time may be left.
     for _ in 0..2 {
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        shadows.encode(&mut encoder, |view, pass| {
+        let draw = |view: &View, pass: &mut CasterPass<'_>| {
             meshes[0].draw(view, pass);
             meshes[1].draw_part(view, pass, 0..40);
             meshes[1].draw_part(view, pass, 40..u32::MAX);
-        });
+        };
+        shadows.encode(&mut encoder, draw).unwrap();
         gpu.queue.submit([encoder.finish()]);
     }
     shadows

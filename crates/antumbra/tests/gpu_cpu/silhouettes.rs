@@ -1,7 +1,7 @@
 //! What sub-pixel shadow maps answer near the border of a shadow, against the border itself.
 
 use crate::common::{Random, Receiver, caster_mesh, view, visibility};
-use antumbra::{ShadowMap, Size, Technique, technique::Coverage};
+use antumbra::{CasterPass, ShadowMap, Size, Technique, View, technique::Coverage};
 use antumbra_testing::{Gpu, broken::Broken};
 use glam::{Vec2, Vec3};
 
@@ -70,12 +70,13 @@ fn answers(
     shadows.prepare(&gpu.queue, &[view(MAP)]).unwrap();
     let cutout = cutout.and_then(|wgsl| shadows.cutout_caster(&gpu.device, wgsl, &[]));
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    shadows.encode(&mut encoder, |view, pass| {
+    let draw = |view: &View, pass: &mut CasterPass<'_>| {
         if let Some(pipeline) = &cutout {
             pass.set_pipeline(pipeline);
         }
         mesh.draw(view, pass);
-    });
+    };
+    shadows.encode(&mut encoder, draw).unwrap();
     gpu.queue.submit([encoder.finish()]);
     visibility(gpu, &shadows, receivers)
 }
