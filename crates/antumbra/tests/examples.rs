@@ -20,6 +20,7 @@ example!(quick_start, "../examples/quick_start.rs");
 example!(hello, "../examples/hello.rs");
 example!(own_shader, "../examples/own_shader.rs");
 example!(own_depth, "../examples/own_depth.rs");
+example!(triangles, "../examples/triangles.rs");
 example!(compute, "../examples/compute.rs");
 example!(skinning, "../examples/skinning.rs");
 
@@ -116,6 +117,25 @@ fn own_depth(gpu: &Gpu) {
     );
 }
 
+/// The rail and the box that moved, by every technique that keeps triangles; bars that are finer than texels, by
+/// the one that keeps all. What keeps depth is refused.
+fn triangles(gpu: &Gpu) {
+    let sun = Vec3::new(-0.7, 1.0, 0.25);
+    let camera = triangles::camera();
+    let lit = Vec3::new(3.5, 0.0, 3.0);
+    let shadow = |x, y, z| on_ground(Vec3::new(x, y, z), sun);
+    for spec in ["rgsm", "spsm", "dpm", "exact"] {
+        let picture = triangles::run(&gpu.device, &gpu.queue, spec).unwrap();
+        check(&picture, camera, &[lit, lit], &[shadow(0.0, 2.0, 1.5), shadow(-2.5, 0.9, 1.0)]);
+        if spec == "exact" {
+            let between = shadow(0.0, 1.0, 1.0);
+            check(&picture, camera, &[between, between], &[shadow(0.0, 1.0, 0.8), shadow(0.0, 1.0, 1.2)]);
+        }
+    }
+    let error = triangles::run(&gpu.device, &gpu.queue, "pcf").unwrap_err().to_string();
+    assert!(error.contains("pcf keeps depth"), "{error}");
+}
+
 /// From above: fog is dark where it is in shadow all the way up, and lit elsewhere.
 fn compute(gpu: &Gpu) {
     let picture = compute::run(&gpu.device, &gpu.queue).unwrap();
@@ -146,6 +166,7 @@ fn main() {
     trials.add("hello", hello);
     trials.add("own_shader", own_shader);
     trials.add("own_depth", own_depth);
+    trials.add("triangles", triangles);
     trials.add("compute", compute);
     trials.add("skinning", skinning);
     trials.run();
