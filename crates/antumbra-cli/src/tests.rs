@@ -25,7 +25,11 @@ fn documents_show_commands_that_are_taken() {
             let program = ["antumbra".to_string()];
             let parsed = Arguments::try_parse_from(program.iter().chain(&words));
             assert!(parsed.is_ok(), "{document}: {}: {}", words.join(" "), parsed.unwrap_err());
-            for spec in words.iter().filter(|word| names.contains(&word.split('.').next().unwrap())) {
+            let is_spec = |word: &&String| match word.split_once('.') {
+                None => names.contains(&word.as_str()),
+                Some((name, settings)) => names.contains(&name) && settings.contains('='),
+            };
+            for spec in words.iter().filter(is_spec) {
                 technique::parse(spec).unwrap();
             }
         }

@@ -119,6 +119,14 @@ pub enum Unsupported {
         /// What the device says.
         reason: String,
     },
+    /// A shader for cut-outs that the device does not take.
+    #[error("the device refuses the shader that leaves holes in the casters of {technique}: {reason}")]
+    Cutout {
+        /// Name of the technique.
+        technique: String,
+        /// What is wrong.
+        reason: String,
+    },
     /// Depth alone does not hold what the technique keeps.
     #[error(
         "{technique} keeps triangles, which a depth texture does not hold; use ShadowMap::new and draw CasterMesh in the closure of encode"

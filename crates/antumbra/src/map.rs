@@ -442,16 +442,30 @@ impl ShadowMap {
     /// sub-texel precision, and a texel with holes says nothing about its neighbours.
     ///
     /// `None` if casters are depth.
-    #[must_use]
+    ///
+    /// # Errors
+    /// [`Unsupported::Cutout`]: more bind groups than the device has, or what it says of the shader and the
+    /// number of resources. In a browser, where devices answer later, the second goes to the caller's error
+    /// scope or handler.
     pub fn cutout_caster(
         &self,
         device: &wgpu::Device,
         wgsl: &str,
         layouts: &[&wgpu::BindGroupLayout],
-    ) -> Option<wgpu::RenderPipeline> {
+    ) -> Result<Option<wgpu::RenderPipeline>, Unsupported> {
         let technique = self.technique.as_ref();
-        let triangles = self.triangles.as_ref().map(|t| t.cutout(device, technique, wgsl, layouts));
-        triangles.or_else(|| self.numbered().map(|n| n.cutout(device, technique, wgsl, layouts)))
+        if technique.caster() == Caster::Depth {
+            return Ok(None);
+        }
+        check::cutout(device, technique, layouts.len())?;
+        let (pipeline, refusal) = answer::ask_now(device, || {
+            let triangles = self.triangles.as_ref().map(|t| t.cutout(device, technique, wgsl, layouts));
+            triangles.or_else(|| self.numbered().map(|n| n.cutout(device, technique, wgsl, layouts)))
+        });
+        refusal.map_or(Ok(pipeline), |refusal| {
+            let technique = technique.page().name.into();
+            Err(Unsupported::Cutout { technique, reason: refusal.to_string() })
+        })
     }
 
     /// A pipeline to return to after that one, in the closure of [`encode`](Self::encode). Slower than the

@@ -112,10 +112,54 @@ fn shaders(gpu: &Gpu) {
     says(&error.to_string(), &["the device refuses what esm is made of", "nothing"]);
 }
 
+/// A layout of as many storage buffers for fragments.
+fn storage_layout(gpu: &Gpu, buffers: u32) -> wgpu::BindGroupLayout {
+    let entry = |binding| wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::FRAGMENT,
+        ty: wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Storage { read_only: true },
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        },
+        count: None,
+    };
+    let entries: Vec<_> = (0..buffers).map(entry).collect();
+    gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: None, entries: &entries })
+}
+
+/// Cut-outs that ask for more groups or buffers than WebGPU promises, or that are no WGSL.
+fn cutouts(_: &Gpu) {
+    const COVERS: &str = "fn caster_covers(triangle: u32, weights: vec3f) -> bool { return true; }";
+    let least = antumbra_testing::gpu_with(wgpu::Features::empty(), wgpu::Limits::default()).unwrap();
+    least.checked(|gpu| {
+        let [one, eight] = [1, 8].map(|buffers| storage_layout(gpu, buffers));
+        for technique in technique::all() {
+            let shadows = ShadowMap::new(&gpu.device, technique.as_ref(), SIZE).unwrap();
+            let made = |wgsl: &str, layouts: &[&wgpu::BindGroupLayout]| {
+                shadows.cutout_caster(&gpu.device, wgsl, layouts)
+            };
+            let triangles = technique.caster() != Caster::Depth;
+            assert_eq!(made(COVERS, &[&one, &one]).unwrap().is_some(), triangles);
+            if !triangles {
+                continue;
+            }
+            let message =
+                |wgsl: &str, layouts: &[&wgpu::BindGroupLayout]| made(wgsl, layouts).unwrap_err().to_string();
+            let name = technique.page().name;
+            let groups = message(COVERS, &[&one, &one, &one]);
+            says(&groups, &[name, "5 bind groups, 3 of the caller's, where 4 are possible", "at most 2"]);
+            says(&message(COVERS, &[&eight]), &[name, "max_storage_buffers_per_shader_stage"]);
+            says(&message("fn caster_covers() {", &[]), &[name, "holes"]);
+        }
+    });
+}
+
 fn main() {
     let mut trials = Trials::default();
     trials.add("casters of the other kind", casters);
     trials.add("more memory than there is", memory);
     trials.add("shaders that the device refuses", shaders);
+    trials.add("cut-outs that the device refuses", cutouts);
     trials.run();
 }

@@ -55,7 +55,7 @@ impl Casters {
             entries: &[wgpu::BindGroupEntry { binding: 0, resource: stage.attributes.as_entire_binding() }],
         });
         let pipeline =
-            shadows.cutout_caster(&gpu.device, shaders::CUTOUT, &[&stage.materials.layout, &layout]);
+            shadows.cutout_caster(&gpu.device, shaders::CUTOUT, &[&stage.materials.layout, &layout])?;
         Ok(Self::Triangles { mesh, cutout: pipeline.map(|pipeline| (pipeline, attributes)) })
     }
 }

@@ -4,6 +4,7 @@
 //! to: what nobody hears goes to the error scope or the handler that the caller has.
 
 use std::{
+    fmt,
     pin::pin,
     task::{Context, Poll, Waker},
 };
@@ -16,6 +17,15 @@ pub(super) enum Refusal {
     Memory,
     /// What the device says is wrong.
     Invalid(String),
+}
+
+impl fmt::Display for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Memory => "out of memory",
+            Self::Invalid(reason) => reason,
+        })
+    }
 }
 
 /// What `make` makes, and the future in which the device will have said what it thinks of it.

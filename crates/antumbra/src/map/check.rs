@@ -58,6 +58,26 @@ pub(super) fn device(
     Ok(())
 }
 
+/// Groups of the library's own in the pass that draws triangles.
+const CASTER_GROUPS: usize = 2;
+
+/// Whether a pass for cut-outs may have as many groups.
+pub(super) fn cutout(
+    device: &wgpu::Device,
+    technique: &dyn Technique,
+    groups: usize,
+) -> Result<(), Unsupported> {
+    let (needed, max) = (CASTER_GROUPS + groups, device.limits().max_bind_groups as usize);
+    if needed <= max {
+        return Ok(());
+    }
+    let most = max.saturating_sub(CASTER_GROUPS);
+    let reason = format!(
+        "{needed} bind groups, {groups} of the caller's, where {max} are possible; put what the shader reads into at most {most}"
+    );
+    Err(Unsupported::Cutout { technique: technique.page().name.into(), reason })
+}
+
 /// Whether the casters can leave what the technique keeps.
 pub(super) fn caster(
     technique: &dyn Technique,

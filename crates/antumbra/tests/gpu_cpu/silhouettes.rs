@@ -68,7 +68,7 @@ fn answers(
     let mesh = caster_mesh(gpu, casters);
     let mut shadows = ShadowMap::new(&gpu.device, technique, MAP).unwrap();
     shadows.prepare(&gpu.queue, &[view(MAP)]).unwrap();
-    let cutout = cutout.and_then(|wgsl| shadows.cutout_caster(&gpu.device, wgsl, &[]));
+    let cutout = cutout.and_then(|wgsl| shadows.cutout_caster(&gpu.device, wgsl, &[]).unwrap());
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     let draw = |view: &View, pass: &mut CasterPass<'_>| {
         if let Some(pipeline) = &cutout {
