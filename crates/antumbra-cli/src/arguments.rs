@@ -1,6 +1,6 @@
 //! The command line.
 
-use crate::completion;
+use crate::{completion, file_arguments::FileArguments};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use std::path::PathBuf;
@@ -117,13 +117,14 @@ pub(crate) struct SceneArguments {
     pub(crate) seed: u64,
     /// Eye, target, vertical field of view in degrees (50 if left out) and roll in degrees (0 if left
     /// out, clockwise), as x,y,z:x,y,z:degrees:roll, or ortho:x,y,z:x,y,z:height:roll (parallel rays, a
-    /// picture of that height), or the number of a camera in the file; default: the file's first camera,
-    /// else one from which shadows are seen
+    /// picture of that height), or the number that the file gives a camera (N, or N.K for the K-th place
+    /// of one that stands in several); default: the file's first camera, else one from which shadows
+    /// are seen
     #[arg(long, allow_hyphen_values = true, value_name = "CAMERA")]
     pub(crate) camera: Option<String>,
     /// Direction of the sun as x,y,z (the way light travels), or spot:x,y,z:x,y,z:degrees (position,
-    /// direction, half angle), or the number of a light in the file; default: the file's first, else
-    /// a sun that shows shadows
+    /// direction, half angle up to 90), or the number that the file gives a light (N or N.K); default: the
+    /// file's first, else a sun that shows shadows
     #[arg(long, allow_hyphen_values = true, value_name = "LIGHT")]
     pub(crate) light: Option<String>,
     /// Pixels across and down
@@ -136,6 +137,8 @@ pub(crate) struct SceneArguments {
     /// light-space ideal
     #[arg(long, default_value_t = 5, value_name = "TEXELS")]
     pub(crate) kernel: u32,
+    #[command(flatten)]
+    pub(crate) file: FileArguments,
 }
 
 #[derive(Debug, Args)]
@@ -283,6 +286,8 @@ pub(crate) struct Bias {
     /// Print the rows as JSON instead of tables
     #[arg(long)]
     pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) file: FileArguments,
 }
 
 /// The usual ones.
@@ -410,6 +415,8 @@ pub(crate) struct Export {
     /// Seed of a built-in scene
     #[arg(long, default_value_t = 1)]
     pub(crate) seed: u64,
+    #[command(flatten)]
+    pub(crate) file: FileArguments,
 }
 
 #[derive(Debug, Args)]

@@ -3,6 +3,7 @@
 mod arguments;
 mod commands;
 mod completion;
+mod file_arguments;
 mod names;
 mod output;
 mod progress;

@@ -1,6 +1,6 @@
 //! From arguments to triangles, a camera and a light.
 
-use crate::{arguments::SceneArguments, views};
+use crate::{arguments::SceneArguments, file_arguments::FileArguments, views};
 use antumbra_lab::default_view;
 use antumbra_scene::{Camera, Geometry, Light, Projection, Scene, import, procedural};
 use anyhow::{Context, Result, bail};
@@ -32,7 +32,7 @@ pub(crate) fn check(arguments: &SceneArguments) -> Result<()> {
 /// Loads and checks everything before any work is done.
 pub(crate) fn load(arguments: &SceneArguments) -> Result<Setting> {
     let resolution = resolution(&arguments.resolution)?;
-    let scene = open(&arguments.scene, arguments.seed)?;
+    let scene = open(&arguments.scene, arguments.seed, &arguments.file)?;
     scene.validate().with_context(|| arguments.scene.clone())?;
     let camera = match &arguments.camera {
         None => scene.cameras.first().copied(),
@@ -68,13 +68,14 @@ fn complete(
 }
 
 /// A line on standard error; one that nobody reads is no reason to stop.
-fn note(text: &str) {
+pub(crate) fn note(text: &str) {
     let _ = writeln!(std::io::stderr(), "note: {text}");
 }
 
 /// A built-in scene or a file, not yet validated.
-pub(crate) fn open(name: &str, seed: u64) -> Result<Scene> {
+pub(crate) fn open(name: &str, seed: u64, file: &FileArguments) -> Result<Scene> {
     if let Some(procedural) = procedural::by_name(name) {
+        file.check_built_in(name)?;
         return Ok(procedural.scene(seed));
     }
     let path = Path::new(name);
@@ -87,10 +88,8 @@ pub(crate) fn open(name: &str, seed: u64) -> Result<Scene> {
     if path.is_dir() {
         bail!("{name} is a folder; give a .glb, .gltf or .obj file in it");
     }
-    let scene = import::load(path)?;
-    for note in &scene.notes {
-        self::note(note);
-    }
+    let scene = import::load_with(path, &file.options())?;
+    scene.notes.iter().for_each(|text| note(text));
     Ok(scene)
 }
 

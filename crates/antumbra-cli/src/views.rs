@@ -1,6 +1,7 @@
 //! Cameras and lights from what the command line says of them.
 
-use antumbra_scene::{Camera, Light, Projection, Scene};
+use crate::scene::note;
+use antumbra_scene::{Camera, Light, Numbered, Projection, Scene};
 use anyhow::{Context, Result, bail};
 use glam::{Quat, Vec3};
 
@@ -11,13 +12,9 @@ const CAMERA: &str = "write eye:target, eye:target:degrees or eye:target:degrees
 
 /// The camera that `--camera` names or describes.
 pub(crate) fn camera(text: &str, scene: &Scene) -> Result<Camera> {
-    if let Ok(index) = text.parse::<usize>() {
-        let count = scene.cameras.len();
-        return scene
-            .cameras
-            .get(index)
-            .copied()
-            .with_context(|| format!("the file has {count} cameras, from 0"));
+    if let Some((number, copy)) = numbered(text) {
+        say_copies("camera", number, copy, &scene.camera_numbers);
+        return scene.camera_of_file(number, copy.unwrap_or(0)).map_err(anyhow::Error::msg);
     }
     let (is_parallel, text) = text.strip_prefix("ortho:").map_or((false, text), |rest| (true, rest));
     let parts: Vec<&str> = text.split(':').collect();
@@ -58,13 +55,9 @@ fn rolled(up: Vec3, forward: Vec3, degrees: &str) -> Result<Vec3> {
 
 /// The light that `--light` names or describes.
 pub(crate) fn light(text: &str, scene: &Scene) -> Result<Light> {
-    if let Ok(index) = text.parse::<usize>() {
-        let count = scene.lights.len();
-        return scene
-            .lights
-            .get(index)
-            .copied()
-            .with_context(|| format!("the file has {count} lights, from 0"));
+    if let Some((number, copy)) = numbered(text) {
+        say_copies("light", number, copy, &scene.light_numbers);
+        return scene.light_of_file(number, copy.unwrap_or(0)).map_err(anyhow::Error::msg);
     }
     let direction = |text: &str| -> Result<Vec3> {
         let direction = vector(text)?;
@@ -79,11 +72,32 @@ pub(crate) fn light(text: &str, scene: &Scene) -> Result<Light> {
     let [position, axis, angle] = parts[..] else {
         bail!("write spot:position:direction:degrees, for example spot:0,4,0:0,-1,0:35");
     };
-    Ok(Light::Spot {
-        position: vector(position)?,
-        direction: direction(axis)?,
-        outer_angle: degrees(angle, 80.0)?,
-    })
+    let asked = degrees(angle, 90.0)?;
+    let outer_angle = asked.min(Light::MAX_OUTER_ANGLE);
+    if outer_angle < asked {
+        note(&format!("--light {text}: {}", Light::narrowed(asked)));
+    }
+    Ok(Light::Spot { position: vector(position)?, direction: direction(axis)?, outer_angle })
+}
+
+/// `N` or `N.K`: the number of a camera or light, and which of its places.
+fn numbered(text: &str) -> Option<(usize, Option<usize>)> {
+    match text.split_once('.') {
+        None => Some((text.parse().ok()?, None)),
+        Some((number, copy)) => Some((number.parse().ok()?, Some(copy.parse().ok()?))),
+    }
+}
+
+/// Says where else a camera or light stands that was asked for by its number alone.
+fn say_copies(kind: &str, number: usize, copy: Option<usize>, numbers: &[Numbered]) {
+    if let (None, Some(entry)) = (copy, numbers.get(number))
+        && entry.places.len() > 1
+    {
+        let last = entry.places.len() - 1;
+        note(&format!(
+            "{kind} {number} stands in several places, {number}.0 to {number}.{last}; the first is taken"
+        ));
+    }
 }
 
 fn vector(text: &str) -> Result<Vec3> {

@@ -79,7 +79,7 @@ fn files(trials: &mut Trials) {
         "that_needs_an_extension",
         "draco.glb",
         draco,
-        &["KHR_draco_mesh_compression", "allowed are"],
+        &["KHR_draco_mesh_compression", "gltf-transform copy", "allowed are"],
     );
     trials.add_plain("scene_of_unknown_name", || {
         refused(&["contcat"], &["'contcat'", "fence, spheres, contact, spot", "did you mean contact?"]);
@@ -176,13 +176,13 @@ fn views(trials: &mut Trials) {
         ("--camera", "1,2,3:1,2,3", &["same point"]),
         ("--camera", "3e38,0,0:-3e38,0,0", &["too far"]),
         ("--camera", "1,2,3:0,0,0:0", &["'0'", "170 degrees"]),
-        ("--camera", "7", &["has 1 cameras"]),
+        ("--camera", "7", &["has 1 camera: 0"]),
         ("--light", "0,0,0", &["no length"]),
         ("--light", "1,2,x", &["'1,2,x'", "x,y,z"]),
         ("--light", "spot:0,4,0:0,-1,0", &["for example"]),
         ("--light", "spot:0,4,0:0,0,0:35", &["no length"]),
-        ("--light", "spot:0,4,0:0,-1,0:95", &["'95'", "80 degrees"]),
-        ("--light", "3", &["has 1 lights"]),
+        ("--light", "spot:0,4,0:0,-1,0:95", &["'95'", "90 degrees"]),
+        ("--light", "3", &["has 1 light: 0"]),
     ];
     for (option, value, words) in cases {
         trials.add_plain(format!("{option}_{value}"), move || {
@@ -280,6 +280,34 @@ fn odd_but_good(trials: &mut Trials) {
         let answer = folder.run(&["render", "blend.glb", "--resolution", "32x24", "--size", "32"]);
         assert_eq!(answer.code, Some(0), "{}", answer.err);
         assert!(answer.err.starts_with("note: ") && answer.err.contains("pane"), "{}", answer.err);
+    });
+    trials.add("files_choose_scene_pose_and_light", |_| {
+        let folder = Folder::new();
+        let change = |d: &mut serde_json::Value| {
+            d["scenes"] = json!([{"name": "Scratch", "nodes": []}, {"name": "House", "nodes": [0, 1]}]);
+            let light = json!({"KHR_lights_punctual": {"light": 1}});
+            d["nodes"].as_array_mut().unwrap().push(json!({"extensions": light}));
+            let lights = json!([{"type": "point"}, {"type": "directional"}]);
+            d["extensions"] = json!({"KHR_lights_punctual": {"lights": lights}});
+        };
+        folder.write("house.glb", &glb(&positions(), &INDICES, change));
+        folder.run(&["render", "house.glb"]).refusal(&["no triangles", "1 'House'", "--scene"]);
+        let house = ["render", "house.glb", "--scene", "House", "--resolution", "32x24", "--size", "32"];
+        folder.run(&[&house[..], &["--light", "1"]].concat()).good();
+        folder.run(&[&house[..], &["--light", "0"]].concat()).refusal(&[
+            "--light 0",
+            "'point'",
+            "usable are: 1",
+        ]);
+        folder.run(&[&house[..], &["--time", "1"]].concat()).refusal(&["option time is 1", "no animations"]);
+        folder.run(&["render", "contact", "--time", "1"]).refusal(&["--time 1", "built in"]);
+    });
+    trials.add("spots_of_ninety_degrees", |_| {
+        let folder = Folder::new();
+        let light = ["render", "contact", "--light", "spot:0,4,0:0,-1,0:90"];
+        let answer = folder.run(&[&light[..], &["--resolution", "32x24", "--size", "32"]].concat());
+        assert_eq!(answer.code, Some(0), "{}", answer.err);
+        assert!(answer.err.starts_with("note: ") && answer.err.contains("90.0° is narrowed to 84.8°"));
     });
     trials.add("scenes_of_extreme_size", |_| {
         for scale in [1e-30_f32, 1e-12, 1e12, 1e18, 1e30] {

@@ -82,6 +82,9 @@ pub struct Comparison {
     pub images: BTreeMap<String, Vec<u8>>,
 }
 
+// Scenes and the library know the same spots.
+const _: () = assert!(Light::MAX_OUTER_ANGLE == antumbra::Light::MAX_OUTER_ANGLE);
+
 /// The light as the library knows it.
 #[must_use]
 pub fn library_light(light: &Light) -> antumbra::Light {

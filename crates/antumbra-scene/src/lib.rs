@@ -25,10 +25,12 @@ pub mod export;
 mod framing;
 mod geometry;
 pub mod import;
+mod numbers;
 pub mod procedural;
 mod scene;
 mod validate;
 
 pub use geometry::{Aabb, Geometry};
+pub use numbers::Numbered;
 pub use scene::{AlphaMode, Camera, Image, Instance, Light, Material, Mesh, Projection, Scene};
 pub use validate::SceneError;

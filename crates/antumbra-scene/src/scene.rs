@@ -1,5 +1,6 @@
 //! The scene as files describe it.
 
+use crate::Numbered;
 use glam::{Mat4, Vec2, Vec3, Vec4};
 
 /// Meshes, materials and images, the instances that place the meshes, and what was said of cameras
@@ -20,6 +21,11 @@ pub struct Scene {
     pub cameras: Vec<Camera>,
     /// Lights in world space, in file order.
     pub lights: Vec<Light>,
+    /// Every camera of the file, also those that were not taken, by the number that it has there.
+    /// Empty for scenes that come from no glTF file: there, numbers are places in `cameras`.
+    pub camera_numbers: Vec<Numbered>,
+    /// Every light of the file, likewise.
+    pub light_numbers: Vec<Numbered>,
     /// What an importer left out or changed, one sentence each.
     pub notes: Vec<String>,
 }
@@ -179,7 +185,23 @@ pub enum Light {
         position: Vec3,
         /// Unit vector along the axis.
         direction: Vec3,
-        /// Half angle of the cone, radians, below π/2.
+        /// Half angle of the cone in radians, more than 0, at most [`Light::MAX_OUTER_ANGLE`].
         outer_angle: f32,
     },
+}
+
+impl Light {
+    /// Widest half angle of a spot, radians (84.8°): near 90° one picture holds no cone any more,
+    /// since its sides lie at tan 90°. Files and users may ask for up to 90°, and get this.
+    pub const MAX_OUTER_ANGLE: f32 = 1.48;
+
+    /// What a note says of a spot whose half angle of `asked` radians was narrowed.
+    #[must_use]
+    pub fn narrowed(asked: f32) -> String {
+        format!(
+            "the spot's half angle of {:.1}° is narrowed to {:.1}°, the most that one shadow map holds",
+            asked.to_degrees(),
+            Self::MAX_OUTER_ANGLE.to_degrees()
+        )
+    }
 }

@@ -247,8 +247,11 @@ impl Scene {
                 if !position.is_finite() {
                     return bad(what, "position must be finite");
                 }
-                if !(outer_angle > 0.0 && outer_angle < std::f32::consts::FRAC_PI_2) {
-                    return bad(what, "outer_angle must lie between 0 and π/2");
+                if !(outer_angle > 0.0 && outer_angle <= Light::MAX_OUTER_ANGLE) {
+                    return bad(
+                        what,
+                        "outer_angle must be more than 0 and at most 1.48 (Light::MAX_OUTER_ANGLE)",
+                    );
                 }
             }
         }

@@ -35,7 +35,8 @@ fn not_gltf() {
     );
     assert_eq!(
         after(|d| d["asset"]["version"] = json!("1.0")),
-        "test.gltf: asset.version is '1.0'; only 2.x is supported"
+        "test.gltf: asset.version is '1.0'; only 2.x is supported; convert it with `gltf-pipeline -i old.gltf -o \
+         new.gltf`"
     );
     assert!(
         after(|d| d["nodes"][0]["mesh"] = json!("zero"))
@@ -45,9 +46,13 @@ fn not_gltf() {
 
 #[test]
 fn unknown_required_extensions() {
-    for name in ["KHR_draco_mesh_compression", "EXT_meshopt_compression", "FAKE_thing"] {
+    for (name, remedy) in [
+        ("KHR_draco_mesh_compression", "`gltf-transform copy in.glb out.glb`"),
+        ("FAKE_thing", "write the file again without it"),
+    ] {
         let message = after(|d| d["extensionsRequired"] = json!(["KHR_materials_unlit", name]));
         assert!(message.contains(&format!("extensionsRequired names {name}, which is not supported")));
+        assert!(message.contains(remedy), "{message}");
     }
 }
 
@@ -213,7 +218,8 @@ fn images_that_decide_about_shape() {
             Err(error) => error.to_string(),
         }
     };
-    let neither = "images[0]: the image cannot be decoded: it is neither PNG nor JPEG by its first bytes";
+    let neither =
+        "images[0]: the image cannot be decoded: it is neither PNG nor JPEG nor WebP by its first bytes";
     assert_eq!(message("AAAA", "MASK"), format!("test.gltf: {neither}"));
     assert_eq!(message("AAAA", "OPAQUE"), format!("{neither}; the plain colour is used"));
     // A header that claims 2³¹−1 by 2³¹−1 pixels.

@@ -233,7 +233,10 @@ pub enum LightError {
         position: glam::Vec3,
     },
     /// A spot's half angle must leave a perspective projection possible.
-    #[error("outer angle {radians} rad is out of range; allowed: more than 0, at most 1.48 (85°)")]
+    #[error(
+        "outer angle {radians} rad is out of range; allowed: more than 0, at most {} (84.8°)",
+        crate::Light::MAX_OUTER_ANGLE
+    )]
     Angle {
         /// Half angle in radians.
         radians: f32,

@@ -56,7 +56,7 @@ pub enum Light {
         position: Vec3,
         /// Axis, any length but zero.
         direction: Vec3,
-        /// Half angle of the cone in radians, more than 0, at most 1.48 (85°).
+        /// Half angle of the cone in radians, more than 0, at most [`Light::MAX_OUTER_ANGLE`].
         outer_angle: f32,
     },
 }
@@ -139,6 +139,10 @@ fn extent(points: impl Iterator<Item = DVec3>) -> (DVec3, DVec3) {
 }
 
 impl Light {
+    /// Widest half angle of a spot, radians (84.8°): near 90° one picture holds no cone any more, since
+    /// its sides lie at tan 90°.
+    pub const MAX_OUTER_ANGLE: f32 = 1.48;
+
     /// The light's only view: tightly around what both casts and is seen.
     ///
     /// A directional light covers, across, the overlap of casters and receivers with a margin for
@@ -168,7 +172,7 @@ impl Light {
                 if !position.is_finite() {
                     return Err(LightError::Position { position });
                 }
-                if !(outer_angle > 0.0 && outer_angle <= 1.48) {
+                if !(outer_angle > 0.0 && outer_angle <= Self::MAX_OUTER_ANGLE) {
                     return Err(LightError::Angle { radians: outer_angle });
                 }
                 spot(position.as_dvec3(), Axes::new(direction)?, outer_angle, fit)

@@ -23,6 +23,7 @@ pub(crate) fn run(arguments: &Bias) -> Result<()> {
         resolution: arguments.resolution.clone(),
         size: arguments.size,
         kernel: arguments.kernel,
+        file: arguments.file.clone(),
     };
     let scenes: Vec<SceneArguments> = arguments.scenes.iter().map(scene).collect();
     scenes.iter().try_for_each(scene::check)?;

@@ -11,7 +11,7 @@ pub(crate) fn run(arguments: &Export) -> Result<()> {
     if !output.extension().is_some_and(|e| e.eq_ignore_ascii_case("glb")) {
         bail!("{}: the output must end in .glb", output.display());
     }
-    let scene = scene::open(&arguments.scene, arguments.seed)?;
+    let scene = scene::open(&arguments.scene, arguments.seed, &arguments.file)?;
     let bytes = export::glb(&scene).with_context(|| arguments.scene.clone())?;
     files::write_atomically(output, &bytes).context("nothing was written")?;
     writeln!(io::stdout(), "{}", output.display())?;

@@ -52,14 +52,19 @@ pub enum Problem {
         /// What was expected and found, with line and column.
         source: serde_json::Error,
     },
-    /// A required extension is unknown.
+    /// An extension that may move triangles, and is not read, is required.
     #[error(
-        "extensionsRequired names {extension}, which is not supported; allowed are {}",
-        super::gltf::SUPPORTED
+        "{element} names {extension}, which is not supported: {remedy}; allowed are {} and those that move no \
+         triangle",
+        super::gltf::EXTENSIONS
     )]
     Extension {
+        /// Who requires it.
+        element: String,
         /// Name of the first such extension.
         extension: String,
+        /// What can be done about it.
+        remedy: String,
     },
     /// A value that breaks a rule of the format.
     #[error("{element} is {value}; {allowed}")]
@@ -78,6 +83,22 @@ pub enum Problem {
         element: String,
         /// What the decoder said.
         message: String,
+    },
+    /// An image is in a format that is not decoded.
+    #[error("{element}: {format} is not decoded; convert it to PNG, JPEG or WebP")]
+    ImageFormat {
+        /// Path of the image.
+        element: String,
+        /// Name of the format.
+        format: String,
+    },
+    /// Nothing is left to draw, and notes say what was left out.
+    #[error("{source}; left out: {notes}")]
+    NothingLeft {
+        /// That there are no triangles.
+        source: SceneError,
+        /// What was left out, and how to keep it.
+        notes: String,
     },
     /// The file was read, but the scene in it cannot be used.
     #[error(transparent)]

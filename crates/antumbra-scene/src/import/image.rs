@@ -1,4 +1,4 @@
-//! PNG and JPEG to 8-bit RGBA.
+//! PNG, JPEG and WebP to 8-bit RGBA.
 
 use crate::Image;
 use std::io::Cursor;
@@ -19,9 +19,35 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Image, String> {
         png(bytes)
     } else if bytes.starts_with(b"\xff\xd8\xff") {
         jpeg(bytes)
+    } else if bytes.starts_with(b"RIFF") && bytes.get(8..12) == Some(b"WEBP") {
+        webp(bytes)
     } else {
-        Err("it is neither PNG nor JPEG by its first bytes".into())
+        Err("it is neither PNG nor JPEG nor WebP by its first bytes".into())
     }
+}
+
+/// What a sound file that is not decoded here is, by its first bytes.
+pub(super) fn other_format(bytes: &[u8]) -> Option<&'static str> {
+    let starts = |mark: &[u8]| bytes.starts_with(mark);
+    match bytes {
+        _ if starts(b"\xabKTX 20\xbb\r\n\x1a\n") => Some(KTX2),
+        _ if starts(b"\xabKTX 11\xbb\r\n\x1a\n") => Some("KTX"),
+        _ if starts(b"DDS ") => Some("DDS"),
+        _ if starts(b"GIF8") => Some("GIF"),
+        _ if starts(b"II*\0") || starts(b"MM\0*") => Some("TIFF"),
+        _ if starts(b"#?RADIANCE") => Some("HDR"),
+        _ if starts(b"v/1\x01") => Some("EXR"),
+        _ if bytes.get(4..12) == Some(b"ftypavif") => Some("AVIF"),
+        [b'B', b'M', ..] if bytes.len() > 26 => Some("BMP"),
+        _ => None,
+    }
+}
+
+const KTX2: &str = "KTX2";
+
+/// The program that converts a format within a glTF file, for messages; empty if there is none.
+pub(super) fn converter(format: &str) -> &'static str {
+    if format == KTX2 { " with `gltf-transform ktxdecompress in.glb out.glb`" } else { "" }
 }
 
 fn check_size(width: u64, height: u64, bytes: usize) -> Result<(), String> {
@@ -59,6 +85,23 @@ fn png(bytes: &[u8]) -> Result<Image, String> {
         other => return Err(format!("its colours come out as {other:?}")),
     };
     Ok(image(info.width, info.height, rgba))
+}
+
+fn webp(bytes: &[u8]) -> Result<Image, String> {
+    let mut decoder = image_webp::WebPDecoder::new(Cursor::new(bytes)).map_err(|e| e.to_string())?;
+    let (width, height) = decoder.dimensions();
+    let size = decoder.output_buffer_size().ok_or("its size overflows")?;
+    if u64::from(width) * u64::from(height) > MAX_PIXELS {
+        return Err(format!("it claims {width}x{height} pixels; allowed are 1 to {MAX_PIXELS}"));
+    }
+    let mut pixels = vec![0; size];
+    decoder.read_image(&mut pixels).map_err(|e| e.to_string())?;
+    let rgba = if decoder.has_alpha() {
+        pixels
+    } else {
+        pixels.chunks_exact(3).flat_map(|p| [p[0], p[1], p[2], 255]).collect()
+    };
+    Ok(image(width, height, rgba))
 }
 
 fn jpeg(bytes: &[u8]) -> Result<Image, String> {

@@ -7,52 +7,73 @@
 mod error;
 mod gltf;
 mod image;
+mod notes;
 mod obj;
+mod options;
 mod vertices;
 
 pub use error::{ImportError, Problem};
+pub use options::{Blend, Options};
 
 use crate::Scene;
 use std::path::Path;
 
-/// Loads a scene; the file's extension chooses the format, in upper or lower case.
+/// Loads a scene as its file leaves it; the file's extension chooses the format, in upper or lower
+/// case.
 ///
 /// # Errors
 /// See [`ImportError`]; an unknown extension is answered with the list of those allowed.
 pub fn load(path: impl AsRef<Path>) -> Result<Scene, ImportError> {
+    load_with(path, &Options::default())
+}
+
+/// Like [`load`], with a choice of scene, pose and more.
+///
+/// # Errors
+/// See [`ImportError`]; also for choices that the file does not offer.
+pub fn load_with(path: impl AsRef<Path>, options: &Options) -> Result<Scene, ImportError> {
     let path = path.as_ref();
     let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
     match extension.as_str() {
-        "gltf" | "glb" => gltf(path),
-        "obj" => obj(path),
+        "gltf" | "glb" => gltf_with(path, options),
+        "obj" => match options.refuse_gltf_choices("OBJ") {
+            Ok(()) => obj(path),
+            Err(problem) => Err(ImportError::new(path, problem)),
+        },
         _ => Err(ImportError::new(path, Problem::Format { extension })),
     }
 }
 
 /// Loads a glTF 2.0 file, text or binary, with the buffers and images it refers to.
 ///
-/// Taken: every triangle list, strip and fan of the default scene (the first if none is named, all
-/// root nodes if there is no scene, all meshes if there are no nodes either), indexed or not, sparse or not, quantised or not; nodes with
-/// matrices or TRS, mirrored or not; GPU instancing; skins and morph targets in the pose at rest;
-/// base colours with their texture transforms, cut-outs (`MASK`), two-sidedness; perspective
-/// and orthographic cameras; directional and spot lights. Missing normals become flat ones, as the format demands.
+/// Taken: every triangle list, strip and fan of one scene (the default one, the first if none is
+/// named, all nodes if there is no scene, all meshes if there are no nodes either), indexed or not,
+/// sparse or not, quantised, compressed by meshoptimizer or not; nodes with matrices or TRS, mirrored
+/// or not; GPU instancing; skins and morph targets, at rest or posed by an animation
+/// ([`Options::time`]); base colours (PNG, JPEG, WebP) with their texture transforms, cut-outs
+/// (`MASK`), two-sidedness; perspective and orthographic cameras; directional and spot lights, spots of more than
+/// [`Light::MAX_OUTER_ANGLE`](crate::Light::MAX_OUTER_ANGLE) narrowed to it. Missing normals become
+/// flat ones, as the format demands.
 ///
-/// Changed or left out, with a line in [`Scene::notes`]: points and lines, `BLEND` (imported as
-/// opaque), point lights, undecodable images on opaque surfaces. Ignored:
-/// animations, all material properties but the above, magnification filters (always linear).
+/// Changed or left out, with a line in [`Scene::notes`] for each kind: points and lines, hidden nodes,
+/// coarser levels of detail, surfaces that blend or transmit light ([`Blend`]), point lights, images that cannot be had or decoded, animations that are not asked for, extensions
+/// that are not read. Ignored: all material properties but the above, magnification filters (always
+/// linear).
 ///
-/// Extensions understood: `KHR_lights_punctual`, `KHR_mesh_quantization`, `KHR_texture_transform`,
-/// `EXT_mesh_gpu_instancing`, and the `KHR_materials_*` family in so far as it changes looks and
-/// not geometry. A file that requires any other, compression included, is refused.
+/// A file that requires an extension that may move triangles and is not read, Draco's among them, is
+/// refused with what converts it.
 ///
 /// # Errors
 /// See [`ImportError`].
 pub fn gltf(path: impl AsRef<Path>) -> Result<Scene, ImportError> {
-    let path = path.as_ref();
+    gltf_with(path.as_ref(), &Options::default())
+}
+
+fn gltf_with(path: &Path, options: &Options) -> Result<Scene, ImportError> {
     let name = path.file_stem().unwrap_or_default().to_string_lossy();
     std::fs::read(path)
         .map_err(Problem::Read)
-        .and_then(|bytes| gltf::import(&bytes, path.parent(), &name))
+        .and_then(|bytes| gltf::import(&bytes, path.parent(), &name, options))
         .map_err(|problem| ImportError::new(path, problem))
 }
 
@@ -61,7 +82,15 @@ pub fn gltf(path: impl AsRef<Path>) -> Result<Scene, ImportError> {
 /// # Errors
 /// See [`ImportError`]; messages name the file `name`.
 pub fn gltf_bytes(bytes: &[u8], name: &str) -> Result<Scene, ImportError> {
-    gltf::import(bytes, None, name).map_err(|problem| ImportError::new(name.as_ref(), problem))
+    gltf_bytes_with(bytes, name, &Options::default())
+}
+
+/// Like [`gltf_bytes`], with a choice of scene, pose and more.
+///
+/// # Errors
+/// See [`ImportError`]; also for choices that the file does not offer.
+pub fn gltf_bytes_with(bytes: &[u8], name: &str, options: &Options) -> Result<Scene, ImportError> {
+    gltf::import(bytes, None, name, options).map_err(|problem| ImportError::new(name.as_ref(), problem))
 }
 
 /// Loads a Wavefront OBJ file with its MTL libraries: polygons (split into triangles), normals,

@@ -76,3 +76,32 @@ pub(crate) fn glb(mut document: Value, binary: &[u8]) -> Vec<u8> {
     file.extend([&word(binary.len()), b"BIN\0".as_slice(), &binary].concat());
     file
 }
+
+/// The document with more data behind [`quad_bytes`]: each piece is one more view (from number 2) and
+/// one more accessor (from number 2) of the given component type, count and shape.
+pub(crate) fn with_accessors(mut document: Value, pieces: &[(Vec<u8>, u32, usize, &str)]) -> Value {
+    let mut bytes = quad_bytes();
+    for (data, kind, count, shape) in pieces {
+        let views = document["bufferViews"].as_array().map_or(0, Vec::len);
+        let view = json!({"buffer": 0, "byteOffset": bytes.len(), "byteLength": data.len()});
+        let accessor = json!({"bufferView": views, "componentType": kind, "count": count, "type": shape});
+        for (list, entry) in [("bufferViews", view), ("accessors", accessor)] {
+            if let Some(list) = document[list].as_array_mut() {
+                list.push(entry);
+            }
+        }
+        bytes.extend(data);
+        bytes.resize(bytes.len().next_multiple_of(4), 0);
+    }
+    with_buffer(document, &bytes)
+}
+
+/// A PNG of one row of pixels.
+pub(crate) fn png_row(pixels: &[[u8; 4]]) -> String {
+    let mut file = Vec::new();
+    let mut encoder = png::Encoder::new(&mut file, pixels.len() as u32, 1);
+    encoder.set_color(png::ColorType::Rgba);
+    let written = encoder.write_header().and_then(|mut writer| writer.write_image_data(&pixels.concat()));
+    assert!(written.is_ok());
+    format!("data:image/png;base64,{}", base64(&file))
+}

@@ -10,6 +10,8 @@ pub(super) struct Asset {
     pub(super) document: Document,
     /// One per buffer, as long as its `byteLength`; `None` where the data is defined elsewhere.
     pub(super) buffers: Vec<Option<Vec<u8>>>,
+    /// One per buffer view, or fewer: the bytes of those that are compressed.
+    pub(super) decoded: Vec<Option<Vec<u8>>>,
 }
 
 /// A component type.
@@ -141,6 +143,9 @@ impl Asset {
     /// The bytes of a buffer view.
     pub(super) fn view(&self, index: usize, owner: &str) -> Result<&[u8], Problem> {
         let view = follow(&self.document.buffer_views, "bufferViews", index, owner)?;
+        if let Some(Some(decoded)) = self.decoded.get(index) {
+            return Ok(decoded);
+        }
         let buffer = self.buffers.get(view.buffer).and_then(Option::as_deref);
         let Some(buffer) = buffer else {
             let element = format!("bufferViews[{index}].buffer");
@@ -190,9 +195,6 @@ impl Asset {
             }
         };
         let mut layout = Layout { format, width, stride: format.size() * width };
-        if accessor.count == 0 {
-            return Err(invalid(format!("{element}.count"), 0, "at least 1 is needed"));
-        }
         if let Some(view) = accessor.buffer_view {
             let stride = self.document.buffer_views.get(view).and_then(|v| v.byte_stride);
             layout.stride = stride.unwrap_or(layout.stride);
@@ -239,6 +241,9 @@ impl Asset {
         let layout = self.layout(index)?;
         let size = layout.element();
         let element = format!("accessors[{index}]");
+        if accessor.count == 0 {
+            return Err(invalid(format!("{element}.count"), 0, "at least 1 is needed where it is used"));
+        }
         let mut bytes = match accessor.buffer_view {
             None => vec![0; accessor.count * size],
             Some(view) => {

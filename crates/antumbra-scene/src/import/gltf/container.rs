@@ -8,6 +8,8 @@ use std::path::Path;
 
 /// Splits a file into its JSON and, for GLB, its binary chunk.
 pub(super) fn split(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), Problem> {
+    // Some editors put a byte order mark before a text.
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     if !bytes.starts_with(b"glTF") {
         return match bytes.trim_ascii_start() {
             [b'{', ..] => Ok((bytes, None)),
@@ -63,7 +65,8 @@ pub(super) fn split(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), Problem> {
     }
 }
 
-/// Reads JSON; errors name the element. Whole numbers may be written with a fraction of zero.
+/// Reads JSON; errors name the element. Whole numbers may be written with a fraction of zero, and what
+/// is absent as null.
 pub(super) fn parse<T: DeserializeOwned>(json: &[u8]) -> Result<T, Problem> {
     let mut reader = serde_json::Deserializer::from_slice(json);
     let problem = |e: serde_path_to_error::Error<serde_json::Error>| Problem::Json {
@@ -78,7 +81,7 @@ pub(super) fn parse<T: DeserializeOwned>(json: &[u8]) -> Result<T, Problem> {
         // Rare, so the costly way is the second one.
         Err(error) => match serde_json::from_slice::<Value>(json) {
             Ok(mut value) => {
-                make_whole(&mut value);
+                mend(&mut value);
                 serde_path_to_error::deserialize(value).map_err(|_| problem(error))
             }
             Err(_) => Err(problem(error)),
@@ -86,16 +89,19 @@ pub(super) fn parse<T: DeserializeOwned>(json: &[u8]) -> Result<T, Problem> {
     }
 }
 
-/// Turns numbers such as 3.0 into 3.
-fn make_whole(value: &mut Value) {
+/// Turns numbers such as 3.0 into 3 and drops what is said to be null, which means nothing.
+fn mend(value: &mut Value) {
     match value {
         Value::Number(number) => {
             if let Some(float) = number.as_f64().filter(|f| f.fract() == 0.0 && f.abs() < 9e15) {
                 *value = (float as i64).into();
             }
         }
-        Value::Array(values) => values.iter_mut().for_each(make_whole),
-        Value::Object(entries) => entries.values_mut().for_each(make_whole),
+        Value::Array(values) => values.iter_mut().for_each(mend),
+        Value::Object(entries) => {
+            entries.retain(|_, value| !value.is_null());
+            entries.values_mut().for_each(mend);
+        }
         _ => {}
     }
 }
@@ -106,13 +112,21 @@ pub(super) fn extension<T: DeserializeOwned>(
     name: &str,
     element: &str,
 ) -> Result<Option<T>, Problem> {
-    let Some(value) = owner.get(name) else { return Ok(None) };
-    T::deserialize(value)
-        .map(Some)
-        .map_err(|source| Problem::Json { element: format!("{element}.extensions.{name}"), source })
+    let Some(found) = owner.get(name) else { return Ok(None) };
+    value(found, &format!("{element}.extensions.{name}")).map(Some)
 }
 
-/// Checks version and required extensions.
+/// Reads a part of the document; `element` is its path.
+pub(super) fn value<T: DeserializeOwned>(found: &Value, element: &str) -> Result<T, Problem> {
+    serde_path_to_error::deserialize(found).map_err(|e| Problem::Json {
+        element: Some(e.path().to_string())
+            .filter(|p| p != ".")
+            .map_or(element.into(), |p| format!("{element}.{p}")),
+        source: e.into_inner(),
+    })
+}
+
+/// Checks the version.
 pub(super) fn check(document: &Document) -> Result<(), Problem> {
     let asset = &document.asset;
     for (element, version) in
@@ -121,13 +135,16 @@ pub(super) fn check(document: &Document) -> Result<(), Problem> {
         if let Some(version) = version
             && !version.starts_with("2.")
         {
-            return Err(invalid(element, format!("'{version}'"), "only 2.x is supported"));
+            let remedy = if version.starts_with("1.") || version == "1" {
+                "; convert it with `gltf-pipeline -i old.gltf -o new.gltf`"
+            } else {
+                ""
+            };
+            let allowed = format!("only 2.x is supported{remedy}");
+            return Err(invalid(element, format!("'{version}'"), allowed));
         }
     }
-    match document.extensions_required.iter().find(|name| !super::supports(name)) {
-        Some(extension) => Err(Problem::Extension { extension: extension.clone() }),
-        None => Ok(()),
-    }
+    Ok(())
 }
 
 /// Loads every buffer, cut to its `byteLength`; `None` for one whose data is defined elsewhere.
@@ -182,11 +199,11 @@ pub(super) fn resource(uri: &str, element: &str, folder: Option<&Path>) -> Resul
         return refuse("allowed are data URIs and paths relative to the file");
     }
     let Some(folder) = folder else { return refuse("a file in memory may use data URIs only") };
-    std::fs::read(folder.join(&path)).map_err(|source| Problem::Resource {
-        element: element.into(),
-        uri: shown,
-        source,
-    })
+    // Paths of Windows are no URIs, but some programs write them.
+    let turned = || std::fs::read(folder.join(path.replace('\\', "/")));
+    std::fs::read(folder.join(&path))
+        .or_else(|e| turned().map_err(|_| e))
+        .map_err(|source| Problem::Resource { element: element.into(), uri: shown, source })
 }
 
 fn percent_decode(text: &str) -> Option<Vec<u8>> {

@@ -19,6 +19,9 @@ pub(super) struct Document {
     pub(super) extensions_used: Vec<String>,
     #[serde(default)]
     pub(super) accessors: Vec<Accessor>,
+    /// As they stand: only the one that poses the scene is read.
+    #[serde(default)]
+    pub(super) animations: Vec<Value>,
     #[serde(default)]
     pub(super) buffers: Vec<Buffer>,
     #[serde(default)]
@@ -106,12 +109,15 @@ pub(super) struct View {
     pub(super) byte_offset: usize,
     pub(super) byte_length: usize,
     pub(super) byte_stride: Option<usize>,
+    #[serde(default)]
+    pub(super) extensions: Extensions,
 }
 
 #[derive(Debug, Deserialize)]
 pub(super) struct Camera {
     #[serde(rename = "type")]
     pub(super) kind: String,
+    pub(super) name: Option<String>,
     pub(super) perspective: Option<Perspective>,
     pub(super) orthographic: Option<Orthographic>,
 }
@@ -223,6 +229,8 @@ pub(super) struct Primitive {
     pub(super) mode: u64,
     #[serde(default)]
     pub(super) targets: Vec<BTreeMap<String, usize>>,
+    #[serde(default)]
+    pub(super) extensions: Extensions,
 }
 
 fn triangles() -> u64 {
@@ -254,6 +262,7 @@ pub(super) struct Sampler {
 
 #[derive(Debug, Deserialize)]
 pub(super) struct SceneNodes {
+    pub(super) name: Option<String>,
     #[serde(default)]
     pub(super) nodes: Vec<usize>,
 }
@@ -269,6 +278,22 @@ pub(super) struct Skin {
 pub(super) struct Texture {
     pub(super) sampler: Option<usize>,
     pub(super) source: Option<usize>,
+    #[serde(default)]
+    pub(super) extensions: Extensions,
+}
+
+/// `EXT_texture_webp` and others that offer an image of another format.
+#[derive(Debug, Deserialize)]
+pub(super) struct OtherSource {
+    pub(super) source: Option<usize>,
+}
+
+/// `KHR_materials_transmission`.
+#[derive(Debug, Default, Deserialize)]
+#[serde(rename_all = "camelCase", default)]
+pub(super) struct Transmission {
+    pub(super) transmission_factor: f32,
+    pub(super) transmission_texture: Option<TextureUse>,
 }
 
 /// One light of `KHR_lights_punctual`.
@@ -276,6 +301,7 @@ pub(super) struct Texture {
 pub(super) struct PunctualLight {
     #[serde(rename = "type")]
     pub(super) kind: String,
+    pub(super) name: Option<String>,
     #[serde(default)]
     pub(super) spot: Cone,
 }
@@ -309,4 +335,27 @@ pub(super) struct LightUse {
 #[derive(Debug, Deserialize)]
 pub(super) struct Instancing {
     pub(super) attributes: BTreeMap<String, usize>,
+}
+
+/// `KHR_node_visibility` of a node.
+#[derive(Debug, Deserialize)]
+pub(super) struct Visibility {
+    #[serde(default = "yes")]
+    pub(super) visible: bool,
+}
+
+fn yes() -> bool {
+    true
+}
+
+/// `MSFT_lod` of a node: coarser nodes that stand in for it far away.
+#[derive(Debug, Deserialize)]
+pub(super) struct Levels {
+    pub(super) ids: Vec<usize>,
+}
+
+/// `CESIUM_RTC` of the document: where the file's origin is.
+#[derive(Debug, Deserialize)]
+pub(super) struct Center {
+    pub(super) center: [f64; 3],
 }

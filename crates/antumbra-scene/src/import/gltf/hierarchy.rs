@@ -2,8 +2,10 @@
 
 use super::accessor::{Asset, follow};
 use super::document::Node;
+use super::selection::Shown;
 use crate::import::error::{Problem, invalid};
-use glam::{DMat4, DQuat, DVec3};
+use crate::import::notes::Notes;
+use glam::{DMat4, DQuat, DVec3, DVec4};
 
 /// Matrices of all nodes, and which of them the scene shows.
 #[derive(Debug)]
@@ -11,7 +13,26 @@ pub(super) struct Hierarchy {
     /// One per node.
     pub(super) world_from_node: Vec<DMat4>,
     /// Nodes of the scene, parents before children.
-    pub(super) shown: Vec<usize>,
+    pub(super) shown: Vec<Shown>,
+}
+
+/// How far from 0, 0, 0, 1 the last row of a matrix may be. Six decimals in a text leave 5·10⁻⁷ and
+/// products of single-precision matrices some 10⁻⁶; real perspective is a hundred times more.
+const ROUNDING: f64 = 1e-5;
+
+/// A matrix whose last row is 0, 0, 0, 1 but for rounding, without the rounding.
+fn affine(mut matrix: DMat4, element: &str) -> Result<DMat4, Problem> {
+    let last = matrix.row(3);
+    if !(last - DVec4::W).abs().cmple(DVec4::splat(ROUNDING)).all() {
+        let allowed = "its last row must be 0, 0, 0, 1, since nodes cannot project; apply the projection to \
+                       the vertices, or leave it out";
+        return Err(invalid(format!("{element}.matrix"), last, allowed));
+    }
+    for column in [&mut matrix.x_axis, &mut matrix.y_axis, &mut matrix.z_axis] {
+        column.w = 0.0;
+    }
+    matrix.w_axis.w = 1.0;
+    Ok(matrix)
 }
 
 /// The matrix of a node relative to its parent.
@@ -28,16 +49,12 @@ fn local(node: &Node, element: &str) -> Result<DMat4, Problem> {
         let translation = node.translation.map_or(DVec3::ZERO, DVec3::from);
         DMat4::from_scale_rotation_translation(scale, rotation.normalize(), translation)
     };
-    let last = matrix.row(3);
-    if last != glam::DVec4::W {
-        return Err(invalid(format!("{element}.matrix"), last, "its last row must be 0, 0, 0, 1"));
-    }
-    Ok(matrix)
+    affine(matrix, element)
 }
 
 impl Asset {
-    /// Places every node. Fails on nodes with two parents and on loops.
-    pub(super) fn hierarchy(&self) -> Result<Hierarchy, Problem> {
+    /// Places every node and lists those of a scene. Fails on nodes with two parents and on loops.
+    pub(super) fn hierarchy(&self, scene: Option<usize>, notes: &mut Notes) -> Result<Hierarchy, Problem> {
         let nodes = &self.document.nodes;
         let mut parents = vec![None; nodes.len()];
         for (parent, node) in nodes.iter().enumerate() {
@@ -50,10 +67,11 @@ impl Asset {
                 }
             }
         }
+        let origin = self.origin()?;
         let mut world_from_node = vec![None; nodes.len()];
         let mut stack: Vec<usize> = (0..nodes.len()).filter(|&i| parents[i].is_none()).collect();
         while let Some(i) = stack.pop() {
-            let above = parents[i].and_then(|p: usize| world_from_node[p]).unwrap_or(DMat4::IDENTITY);
+            let above = parents[i].and_then(|p: usize| world_from_node[p]).unwrap_or(origin);
             world_from_node[i] = Some(above * local(&nodes[i], &format!("nodes[{i}]"))?);
             stack.extend(&nodes[i].children);
         }
@@ -62,36 +80,7 @@ impl Asset {
             matrix.ok_or_else(error)
         });
         let world_from_node = placed.collect::<Result<Vec<_>, _>>()?;
-        let shown = self.shown(&parents)?;
+        let shown = self.nodes_of(scene, &parents, notes)?;
         Ok(Hierarchy { world_from_node, shown })
-    }
-
-    /// The nodes of the default scene, else of the first, else all.
-    fn shown(&self, parents: &[Option<usize>]) -> Result<Vec<usize>, Problem> {
-        let document = &self.document;
-        if document.scenes.is_empty() && document.scene.is_none() {
-            return Ok((0..parents.len()).collect());
-        }
-        let index = document.scene.unwrap_or(0);
-        let scene = follow(&document.scenes, "scenes", index, "scene")?;
-        let mut seen = vec![false; parents.len()];
-        let mut shown = Vec::new();
-        for (place, &root) in scene.nodes.iter().enumerate() {
-            let element = format!("scenes[{index}].nodes[{place}]");
-            follow(&document.nodes, "nodes", root, &element)?;
-            if let Some(parent) = parents[root] {
-                let allowed = format!("only roots are allowed, and that is a child of nodes[{parent}]");
-                return Err(invalid(element, root, allowed));
-            }
-            if std::mem::replace(&mut seen[root], true) {
-                return Err(invalid(element, root, "each node may appear once"));
-            }
-            let mut stack = vec![root];
-            while let Some(i) = stack.pop() {
-                shown.push(i);
-                stack.extend(document.nodes[i].children.iter().rev());
-            }
-        }
-        Ok(shown)
     }
 }

@@ -2,54 +2,86 @@
 //! where it is followed.
 
 mod accessor;
+mod animation;
+mod blend;
 mod container;
 mod document;
+mod extensions;
 mod hierarchy;
 mod material;
+mod meshopt;
 mod primitive;
+mod selection;
 mod skin;
+mod texture;
 mod topology;
+mod transmission;
 mod views;
 
 use super::error::{Problem, invalid};
-use crate::{Instance, Scene};
+use super::notes::Notes;
+use super::options::Options;
+use crate::{Instance, Scene, SceneError};
 use accessor::{Asset, follow};
-use document::{Document, Instancing};
+use document::{Document, Instancing, PunctualLight};
+pub(super) use extensions::READ as EXTENSIONS;
 use glam::{DMat4, DQuat, DVec3, Mat4};
 use hierarchy::Hierarchy;
-use material::Surfaces;
+use material::{Source, Surfaces};
+use selection::Shown;
 use std::collections::HashMap;
 use std::path::Path;
 
-/// Extensions that a file may require, for messages.
-pub(super) const SUPPORTED: &str = "KHR_lights_punctual, KHR_mesh_quantization, KHR_texture_transform, \
-                                    EXT_mesh_gpu_instancing and KHR_materials_*";
-
-fn supports(extension: &str) -> bool {
-    extension.starts_with("KHR_materials_") || SUPPORTED.split([',', ' ']).any(|name| name == extension)
-}
-
 /// Imports a file from its bytes; `folder` is where its other files are, if it may have any.
-pub(super) fn import(bytes: &[u8], folder: Option<&Path>, name: &str) -> Result<Scene, Problem> {
+pub(super) fn import(
+    bytes: &[u8],
+    folder: Option<&Path>,
+    name: &str,
+    options: &Options,
+) -> Result<Scene, Problem> {
+    let mut notes = Notes::default();
     let (json, binary) = container::split(bytes)?;
     let document: Document = container::parse(json)?;
     container::check(&document)?;
+    extensions::check(&document, &mut notes)?;
     let buffers = container::buffers(&document, binary, folder)?;
-    let asset = Asset { document, buffers };
+    let mut asset = Asset { document, buffers, decoded: Vec::new() };
     asset.check()?;
-    let hierarchy = asset.hierarchy()?;
-    let surfaces = Surfaces::read(&asset, folder)?;
-    let scene = Scene { name: name.into(), ..Scene::default() };
-    let mut placer = Placer { asset: &asset, hierarchy, surfaces, scene, placed: HashMap::new(), skipped: 0 };
+    asset.decompress()?;
+    asset.animate(options, &mut notes)?;
+    let shown = asset.scene(options.scene.as_deref(), &mut notes)?;
+    let hierarchy = asset.hierarchy(shown, &mut notes)?;
+    let source = Source { asset: &asset, folder, blend: options.blend };
+    let surfaces = Surfaces::read(&source, &mut notes)?;
+    let mut scene = Scene { name: name.into(), ..Scene::default() };
+    let lights = asset.number_views(&mut scene)?;
+    let mut placer = Placer {
+        asset: &asset,
+        hierarchy,
+        surfaces,
+        lights,
+        scene,
+        notes,
+        placed: HashMap::new(),
+        skipped: 0,
+    };
     for place in 0..placer.hierarchy.shown.len() {
         placer.node(placer.hierarchy.shown[place])?;
     }
-    if asset.document.nodes.is_empty() && asset.document.scenes.is_empty() {
+    if asset.document.nodes.is_empty()
+        && asset.document.scenes.is_empty()
+        && !asset.document.meshes.is_empty()
+    {
         placer.library()?;
     }
-    let scene = placer.finish();
-    scene.validate()?;
-    Ok(scene)
+    let scene = placer.finish(options);
+    match scene.validate() {
+        Ok(()) => Ok(scene),
+        Err(source @ SceneError::NoTriangles { .. }) if !scene.notes.is_empty() => {
+            Err(Problem::NothingLeft { source, notes: scene.notes.join("; ") })
+        }
+        Err(problem) => Err(problem.into()),
+    }
 }
 
 /// Walks the nodes and fills the scene.
@@ -58,7 +90,10 @@ struct Placer<'a> {
     asset: &'a Asset,
     hierarchy: Hierarchy,
     surfaces: Surfaces,
+    /// The lights that nodes use.
+    lights: Vec<PunctualLight>,
     scene: Scene,
+    notes: Notes,
     /// Scene meshes of each glTF mesh without skin or weights of its own.
     placed: HashMap<usize, Vec<usize>>,
     /// Primitives that draw no triangles.
@@ -66,11 +101,14 @@ struct Placer<'a> {
 }
 
 impl Placer<'_> {
-    fn node(&mut self, index: usize) -> Result<(), Problem> {
+    fn node(&mut self, Shown { node: index, hidden }: Shown) -> Result<(), Problem> {
         let asset = self.asset;
         let world = self.hierarchy.world_from_node[index];
-        asset.add_camera(&mut self.scene, index, world)?;
-        asset.add_light(&mut self.scene, index, world)?;
+        asset.add_camera(&mut self.scene, index, world, &mut self.notes)?;
+        if hidden {
+            return Ok(());
+        }
+        asset.add_light(&mut self.scene, &self.lights, (index, world), &mut self.notes)?;
         let node = &asset.document.nodes[index];
         let Some(mesh) = node.mesh else { return Ok(()) };
         let element = format!("nodes[{index}]");
@@ -103,7 +141,7 @@ impl Placer<'_> {
             let added: Vec<usize> = self.mesh(mesh, None, None)?.into_iter().map(|(mesh, _)| mesh).collect();
             self.place(&added, DMat4::IDENTITY);
         }
-        self.scene.notes.push("the file has no nodes; every mesh is placed once, untransformed".into());
+        self.notes.say("the file has no nodes; every mesh is placed once, untransformed");
         Ok(())
     }
 
@@ -162,15 +200,15 @@ impl Placer<'_> {
         Ok(added)
     }
 
-    fn finish(self) -> Scene {
-        let mut scene = self.scene;
-        scene.materials = self.surfaces.materials;
-        scene.images = self.surfaces.images;
-        scene.notes.extend(self.surfaces.notes);
-        if self.skipped > 0 {
-            let skipped = self.skipped;
-            scene.notes.push(format!("{skipped} primitives without triangles or positions are left out"));
+    fn finish(self, options: &Options) -> Scene {
+        let Self { mut scene, surfaces, mut notes, skipped, .. } = self;
+        scene.materials = surfaces.materials;
+        scene.images = surfaces.images;
+        if skipped > 0 {
+            notes.say(format!("{skipped} primitives without triangles or positions are left out"));
         }
+        blend::settle(&mut scene, &surfaces.passing, options.blend, &mut notes);
+        scene.notes = notes.sentences();
         scene
     }
 }

@@ -2,13 +2,13 @@
 
 use super::accessor::{Asset, Format, Table, follow};
 use super::document::Primitive;
-use super::topology;
+use super::{extensions, topology};
 use crate::import::error::{Problem, invalid};
 use crate::import::vertices::Vertices;
 use glam::{Affine2, Vec2, Vec3, Vec4};
 
 /// Which texture coordinates the material wants, and how they are transformed.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct Coordinates {
     pub(super) set: usize,
     pub(super) transform: Affine2,
@@ -106,6 +106,9 @@ impl Asset {
         weights: &[f32],
         coordinates: Coordinates,
     ) -> Result<Option<Vertices>, Problem> {
+        let plain = primitive.attributes.get("POSITION").and_then(|&i| self.document.accessors.get(i));
+        let has_data = plain.is_some_and(|a| a.buffer_view.is_some() || a.sparse.is_some());
+        extensions::check_primitive(&primitive.extensions, has_data, element)?;
         let topology = topology::from_mode(primitive.mode, element)?;
         let (Some(topology), Some(&position)) = (topology, primitive.attributes.get("POSITION")) else {
             return Ok(None);
