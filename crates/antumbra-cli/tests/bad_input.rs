@@ -292,7 +292,8 @@ fn odd_but_good(trials: &mut Trials) {
         };
         folder.write("house.glb", &glb(&positions(), &INDICES, change));
         folder.run(&["render", "house.glb"]).refusal(&["no triangles", "1 'House'", "--scene"]);
-        let house = ["render", "house.glb", "--scene", "House", "--resolution", "32x24", "--size", "32"];
+        let view = ["--camera", "4,4,4:0,0,0", "--resolution", "32x24", "--size", "32"];
+        let house = [&["render", "house.glb", "--scene", "House"], &view[..]].concat();
         folder.run(&[&house[..], &["--light", "1"]].concat()).good();
         folder.run(&[&house[..], &["--light", "0"]].concat()).refusal(&[
             "--light 0",
