@@ -15,7 +15,11 @@ choice! {
         Nearest = "nearest",
         /// Four texels of the finest level.
         Bilinear = "bilinear",
-        /// Two mip levels chosen by the longer side of the pixel's footprint.
+        /// Two mip levels chosen by what the pixel's footprint covers beyond the blur, in area: nothing is
+        /// filtered twice, and little across a stretched footprint. One lookup.
+        Fitted = "fitted",
+        /// Two mip levels chosen by the longer side of the pixel's footprint, as samplers do and papers
+        /// assume: blurs shadows away where the ground is seen at a grazing angle.
         Trilinear = "trilinear",
         /// Several trilinear lookups along the longer side of the footprint.
         Anisotropic = "anisotropic",
@@ -65,7 +69,7 @@ impl Default for Filter {
             width: 0.0,
             weights: Weights::Gaussian,
             sigma: 0.0,
-            sampling: Sampling::Trilinear,
+            sampling: Sampling::Fitted,
             anisotropy: 16,
         }
     }
@@ -114,7 +118,7 @@ impl Filter {
             _ => Kernel::new(self.weights, self.kernel, self.sigma),
         };
         let blur = (self.kernel > 1).then(|| Pass::Blur(kernel(), combine));
-        let mips = matches!(self.sampling, Sampling::Trilinear | Sampling::Anisotropic);
+        let mips = matches!(self.sampling, Sampling::Fitted | Sampling::Trilinear | Sampling::Anisotropic);
         blur.into_iter().chain(mips.then_some(Pass::Mips(combine))).collect()
     }
 
@@ -148,6 +152,7 @@ impl Filter {
         let lookup = match self.sampling {
             Sampling::Nearest => return vec!["lookup_nearest"],
             Sampling::Bilinear => "lookup_bilinear",
+            Sampling::Fitted => "lookup_fitted",
             Sampling::Trilinear => "lookup_trilinear",
             Sampling::Anisotropic => "lookup_anisotropic",
             Sampling::Summed => "lookup_summed",
@@ -178,10 +183,23 @@ impl Filter {
         if let (Combine::LogMean(c), false) = (combine, self.sampling == Sampling::Nearest) {
             constants.push(Constant::Number("level_steepness", c));
         }
+        if self.sampling == Sampling::Fitted {
+            constants.push(Constant::Number("lookup_blur", self.variance()));
+        }
         if self.sampling == Sampling::Anisotropic {
             constants.push(Constant::Count("lookup_most_taps", self.anisotropy));
         }
         constants
+    }
+
+    /// Variance of the blur in squares of texels; 0 where it depends on the view.
+    #[must_use]
+    pub fn variance(&self) -> f32 {
+        if self.width > 0.0 {
+            return 0.0;
+        }
+        let kernel = Kernel::new(self.weights, self.kernel, self.sigma);
+        kernel.offsets().map(|(distance, weight)| distance * distance * weight).sum()
     }
 
     /// Texture lookups behind one `lookup_filtered` whose footprint is not stretched.

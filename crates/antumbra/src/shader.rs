@@ -3,7 +3,7 @@
 //! WGSL files hold functions, constants and uniform structs only; textures and samplers reach them
 //! as parameters. The first line may be `//! needs a b`: stems of other files, or a slot such as
 //! `lookup` that one of the technique's [parts](crate::Technique::parts) fills
-//! (`lookup_trilinear`). Bound globals exist in the glue alone.
+//! (`lookup_fitted`). Bound globals exist in the glue alone.
 
 use crate::{
     capabilities::Capabilities,
@@ -24,6 +24,7 @@ const FILES: &[(&str, &str)] = &[
     ("level_manual", include_str!("shader/level/manual.wgsl")),
     ("lookup_anisotropic", include_str!("shader/lookup/anisotropic.wgsl")),
     ("lookup_bilinear", include_str!("shader/lookup/bilinear.wgsl")),
+    ("lookup_fitted", include_str!("shader/lookup/fitted.wgsl")),
     ("lookup_nearest", include_str!("shader/lookup/nearest.wgsl")),
     ("lookup_summed", include_str!("shader/lookup/summed.wgsl")),
     ("lookup_trilinear", include_str!("shader/lookup/trilinear.wgsl")),

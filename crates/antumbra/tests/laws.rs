@@ -40,6 +40,7 @@ fn specs() -> Vec<String> {
         more("accumulation", "grid=4,accumulation=bytes,precision=8");
         more("spin", "spin=fixed,points=5");
         more("precision", "precision=16");
+        more("sampling", "sampling=trilinear");
         more("sampling", "sampling=anisotropic");
         more("sampling", "sampling=summed,kernel=5");
         more("classifier", "classifier=none");

@@ -15,8 +15,8 @@ const FAR: f32 = 4.0;
 const FIGURE_1: [(&str, &str); 4] = [
     ("pcf.kernel=1", "PCF"),
     ("csm.kernel=1,sampling=bilinear", "CSM, no mips"),
-    ("csm.kernel=1", "CSM, mip-mapped"),
-    ("csm.kernel=7", "CSM, mip-mapped, 7×7"),
+    ("csm.kernel=1,sampling=trilinear", "CSM, mip-mapped"),
+    ("csm.kernel=7,sampling=trilinear", "CSM, mip-mapped, 7×7"),
 ];
 
 pub(super) fn figure_1(bench: &Bench<'_>) -> Result<Page> {
@@ -109,7 +109,7 @@ pub(super) fn figure_8(bench: &Bench<'_>) -> Result<Page> {
     let mut tiles = Vec::new();
     let mut errors = Vec::new();
     for kernel in KERNELS {
-        let spec = format!("csm.kernel={kernel}");
+        let spec = format!("csm.kernel={kernel},sampling=trilinear");
         let mut rows = [Vec::new(), Vec::new()];
         for size in SIZES {
             let study =

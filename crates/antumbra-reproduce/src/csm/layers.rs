@@ -11,7 +11,7 @@ use crate::{
 use antumbra_lab::plane::Plane;
 use anyhow::Result;
 
-const SPECS: [&str; 2] = ["vsm.kernel=7", "csm.kernel=7"];
+const SPECS: [&str; 2] = ["vsm.kernel=7,sampling=trilinear", "csm.kernel=7,sampling=trilinear"];
 const KERNEL: u32 = 7;
 /// Share of the depth range: the ramp of a CSM with 16 terms.
 const NEAR: f64 = 0.07;

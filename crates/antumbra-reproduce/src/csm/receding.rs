@@ -12,8 +12,13 @@ use antumbra_lab::{
 use anyhow::Result;
 
 /// Hardware's 2×2 comparison, the same width as the map's blur, that blur without and with mip-mapping.
-const SPECS: [&str; 5] =
-    ["hard", "pcf.kernel=2", "pcf.kernel=5", "csm.kernel=5,sampling=bilinear", "csm.kernel=5"];
+const SPECS: [&str; 5] = [
+    "hard",
+    "pcf.kernel=2",
+    "pcf.kernel=5",
+    "csm.kernel=5,sampling=bilinear",
+    "csm.kernel=5,sampling=trilinear",
+];
 const FRAMES: u32 = 48;
 
 pub(super) fn figure_10(bench: &Bench<'_>) -> Result<Page> {

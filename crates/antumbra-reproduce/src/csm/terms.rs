@@ -11,8 +11,8 @@ use crate::{
 };
 use anyhow::Result;
 
-const OFFSET: &str = "csm.kernel=5";
-const SCALE: &str = "csm.kernel=5,lift=scale";
+const OFFSET: &str = "csm.kernel=5,sampling=trilinear";
+const SCALE: &str = "csm.kernel=5,lift=scale,sampling=trilinear";
 /// Share of the depth range within which a caster is in contact.
 const NEAR: f64 = 0.05;
 /// The same for the ramp of 16 terms.
@@ -76,9 +76,9 @@ fn contact_limits(scale: Option<f64>, offset: Option<f64>) -> Verdict {
 
 /// Bits, spec.
 const STORAGE: [(&str, &str); 3] = [
-    ("8 bits", "csm.kernel=5"),
-    ("16 bits", "csm.kernel=5,storage=float16"),
-    ("32 bits", "csm.kernel=5,storage=float32"),
+    ("8 bits", "csm.kernel=5,sampling=trilinear"),
+    ("16 bits", "csm.kernel=5,storage=float16,sampling=trilinear"),
+    ("32 bits", "csm.kernel=5,storage=float32,sampling=trilinear"),
 ];
 
 pub(super) fn figure_5(bench: &Bench<'_>) -> Result<Page> {
@@ -133,10 +133,10 @@ fn eight_bits(scene: &str, rmse: f64, error: f64, exact_error: f64) -> Verdict {
 
 const TERMS: [u32; 6] = [1, 2, 4, 8, 16, 32];
 /// The other way to light surfaces, as sharp as the series is.
-const SCALED: &str = "csm.terms=4,attenuation=0,lift=scale";
+const SCALED: &str = "csm.terms=4,attenuation=0,lift=scale,sampling=trilinear";
 
 pub(super) fn figure_6(bench: &Bench<'_>) -> Result<Page> {
-    let specs = TERMS.map(|terms| format!("csm.terms={terms}"));
+    let specs = TERMS.map(|terms| format!("csm.terms={terms},sampling=trilinear"));
     let mut names: Vec<&str> = specs.iter().map(String::as_str).collect();
     names.push(SCALED);
     let mut page = Page::default();

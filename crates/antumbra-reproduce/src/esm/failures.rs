@@ -19,8 +19,8 @@ const FAILED: &str = "assumption violated";
 
 /// The backyard with both classifiers and all kernels: Z-Max, then Threshold.
 fn study(bench: &Bench<'_>) -> Result<Study> {
-    let zmax = PAPER.map(|(kernel, ..)| format!("esm.classifier=zmax,kernel={kernel}"));
-    let threshold = PAPER.map(|(kernel, ..)| format!("esm.kernel={kernel}"));
+    let zmax = PAPER.map(|(kernel, ..)| format!("esm.classifier=zmax,kernel={kernel},sampling=trilinear"));
+    let threshold = PAPER.map(|(kernel, ..)| format!("esm.kernel={kernel},sampling=trilinear"));
     let specs: Vec<&str> = zmax.iter().chain(&threshold).map(String::as_str).collect();
     bench.study(bench.shot("backyard", [800, 800]), bench.map(2048), &specs)
 }
@@ -51,9 +51,9 @@ pub(super) fn figure_10(bench: &Bench<'_>) -> Result<Page> {
 }
 
 const FIGURE_5: [(&str, &str); 3] = [
-    ("esm.kernel=5,classifier=zmax", "Z-Max"),
-    ("esm.kernel=5", "Threshold"),
-    ("esm.kernel=5,classifier=none", "no classifier"),
+    ("esm.kernel=5,classifier=zmax,sampling=trilinear", "Z-Max"),
+    ("esm.kernel=5,sampling=trilinear", "Threshold"),
+    ("esm.kernel=5,classifier=none,sampling=trilinear", "no classifier"),
 ];
 
 pub(super) fn figure_5(bench: &Bench<'_>) -> Result<Page> {
@@ -99,8 +99,8 @@ const OFFSETS: [f32; 5] = [0.1, 0.25, 0.5, 1.0, 2.0];
 const EPSILONS: [f32; 5] = [0.0, 0.01, 0.1, 0.5, 2.0];
 
 pub(super) fn figure_6(bench: &Bench<'_>) -> Result<Page> {
-    let zmax = OFFSETS.map(|o| format!("esm.kernel=5,classifier=zmax,offset={o}"));
-    let threshold = EPSILONS.map(|e| format!("esm.kernel=5,epsilon={e}"));
+    let zmax = OFFSETS.map(|o| format!("esm.kernel=5,classifier=zmax,offset={o},sampling=trilinear"));
+    let threshold = EPSILONS.map(|e| format!("esm.kernel=5,epsilon={e},sampling=trilinear"));
     let specs: Vec<&str> = zmax.iter().chain(&threshold).map(String::as_str).collect();
     let study = bench.study(bench.shot("backyard", [480, 360]), bench.map(1024), &specs)?;
     let mut page = Page::default();

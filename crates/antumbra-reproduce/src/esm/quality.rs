@@ -11,7 +11,11 @@ use crate::{
 use anyhow::Result;
 
 /// Spec, name.
-const SPECS: [(&str, &str); 3] = [("csm.kernel=5", "CSM"), ("vsm.kernel=5", "VSM"), ("esm.kernel=5", "ESM")];
+const SPECS: [(&str, &str); 3] = [
+    ("csm.kernel=5,sampling=trilinear", "CSM"),
+    ("vsm.kernel=5,sampling=trilinear", "VSM"),
+    ("esm.kernel=5,sampling=trilinear", "ESM"),
+];
 /// Frames per second and megabytes of CSM, VSM, ESM.
 const PAPER: [(f64, f64); 3] = [(22.0, 170.0), (84.0, 42.0), (94.0, 21.0)];
 const KERNEL: u32 = 5;

@@ -11,7 +11,10 @@ use crate::{
 use anyhow::Result;
 
 const BUDGETS: [u32; 7] = [1, 4, 9, 16, 36, 64, 144];
-const ESM: [(&str, &str); 2] = [("esm.kernel=1", "ESM, trilinear"), ("esm.kernel=5", "ESM, 5×5 Gauss")];
+const ESM: [(&str, &str); 2] = [
+    ("esm.kernel=1,sampling=trilinear", "ESM, trilinear"),
+    ("esm.kernel=5,sampling=trilinear", "ESM, 5×5 Gauss"),
+];
 
 pub(super) fn figure_7(bench: &Bench<'_>) -> Result<Page> {
     let pcf = BUDGETS.map(|n| format!("footprint.budget={n}"));

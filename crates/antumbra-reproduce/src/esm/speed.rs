@@ -22,8 +22,13 @@ const TABLE_1: [(u32, u32, [f64; 4]); 9] = [
 const NAMES: [&str; 4] = ["ESM, Threshold", "ESM, Z-Max", "VSM", "CSM"];
 
 fn specs(kernel: u32) -> [String; 4] {
-    ["esm.kernel=", "esm.classifier=zmax,kernel=", "vsm.kernel=", "csm.kernel="]
-        .map(|s| format!("{s}{kernel}"))
+    [
+        "esm.sampling=trilinear,kernel=",
+        "esm.classifier=zmax,sampling=trilinear,kernel=",
+        "vsm.sampling=trilinear,kernel=",
+        "csm.sampling=trilinear,kernel=",
+    ]
+    .map(|s| format!("{s}{kernel}"))
 }
 
 fn convolution(kernel: u32) -> String {

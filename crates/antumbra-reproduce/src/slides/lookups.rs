@@ -74,10 +74,10 @@ fn exactly(largest: Option<f64>) -> Verdict {
 }
 
 const LAYERS: [(&str, &str); 4] = [
-    ("vsm.kernel=5", "VSM"),
-    ("lvsm.kernel=5,intervals=2", "2 intervals"),
-    ("lvsm.kernel=5", "4 intervals"),
-    ("lvsm.kernel=5,intervals=8", "8 intervals"),
+    ("vsm.kernel=5,sampling=trilinear", "VSM"),
+    ("lvsm.kernel=5,intervals=2,sampling=trilinear", "2 intervals"),
+    ("lvsm.kernel=5,sampling=trilinear", "4 intervals"),
+    ("lvsm.kernel=5,intervals=8,sampling=trilinear", "8 intervals"),
 ];
 
 pub(super) fn vsm_layers(bench: &Bench<'_>) -> Result<Page> {

@@ -12,6 +12,9 @@ fn pyramid(gpu: &Gpu, texture: &wgpu::Texture) -> Vec<Vec<f64>> {
         .collect()
 }
 
+/// Variance of the Gaussian of three taps in squares of texels: both side taps weigh e^(−1/(2·0.8²)) of the middle.
+const BLUR: f64 = 2.0 * 0.457_833_361_771_614_3 / (1.0 + 2.0 * 0.457_833_361_771_614_3);
+
 fn trilinear(levels: &[Vec<f64>], u: f64, v: f64, level: f64) -> f64 {
     let level = level.clamp(0.0, levels.len() as f64 - 1.0);
     let at = |l: f64| bilinear(u, v, 64 >> l as usize, |i| levels[l as usize][i]);
@@ -28,6 +31,12 @@ fn looked_up(sampling: &str, levels: &[Vec<f64>], r: &[f64; INPUTS], most: f64) 
         "nearest" => levels[0][clamped((u * 64.0).floor(), (v * 64.0).floor(), 64)],
         "bilinear" => trilinear(levels, u, v, 0.0),
         "trilinear" => trilinear(levels, u, v, x.max(y).max(1.0).log2()),
+        "fitted" => {
+            // A texel of level l is a box of 2^l texels under a tent of as many, beside the blur.
+            let area = 64.0 * 64.0 * (r[2] * r[5] - r[3] * r[4]).abs();
+            let beyond = area / 12.0 - BLUR;
+            trilinear(levels, u, v, 0.5 * (4.0 * beyond + 1.0 / 3.0).max(1.0).log2())
+        }
         _ => {
             let (longest, shortest) = (x.max(y).max(1.0), x.min(y).max(1.0));
             let taps = (longest / shortest).ceil().clamp(1.0, most);
@@ -62,7 +71,8 @@ pub(crate) fn lookups_interpolate(gpu: &Gpu) {
     for (sampling, wrong) in [
         ("nearest", "bilinear"),
         ("bilinear", "nearest"),
-        ("trilinear", "bilinear"),
+        ("trilinear", "fitted"),
+        ("fitted", "trilinear"),
         ("anisotropic", "trilinear"),
     ] {
         let spec = format!("vsm.anisotropy=5,sampling={sampling}");

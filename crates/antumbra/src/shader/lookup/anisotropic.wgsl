@@ -6,6 +6,13 @@ alias LookupMap = texture_2d_array<f32>;
 /// Most lookups along the footprint.
 const lookup_most_taps: u32 = 16;
 
+/// The level at which a texel covers the longer side of the pixel's footprint, and so all that is read.
+fn lookup_level(size: vec2f, ddx: vec2f, ddy: vec2f) -> f32 {
+    let x = ddx * size;
+    let y = ddy * size;
+    return 0.5 * log2(max(max(dot(x, x), dot(y, y)), 1.0));
+}
+
 /// Trilinear lookups in a row along the longer side of the pixel's footprint, at the level of its
 /// shorter side. An explicit loop: bounded, and the same on every driver.
 fn lookup_filtered(map: LookupMap, map_sampler: sampler, uv: vec2f, layer: u32, ddx: vec2f, ddy: vec2f) -> vec4f {

@@ -1,6 +1,11 @@
 /// What receivers read.
 alias LookupMap = texture_2d_array<f32>;
 
+/// The finest level.
+fn lookup_level(size: vec2f, ddx: vec2f, ddy: vec2f) -> f32 {
+    return 0.0;
+}
+
 /// The texel that contains uv.
 fn lookup_filtered(map: LookupMap, map_sampler: sampler, uv: vec2f, layer: u32, ddx: vec2f, ddy: vec2f) -> vec4f {
     let size = vec2i(textureDimensions(map));

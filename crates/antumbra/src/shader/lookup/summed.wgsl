@@ -44,6 +44,13 @@ fn lookup_cover(low: f32, high: f32) -> vec3f {
     return vec3f(min(high, first + 1.0) - low, 1.0, select(0.0, high - last, last > first));
 }
 
+/// The level at which a texel covers the longer side of the pixel's footprint, and so all that is read.
+fn lookup_level(size: vec2f, ddx: vec2f, ddy: vec2f) -> f32 {
+    let x = ddx * size;
+    let y = ddy * size;
+    return 0.5 * log2(max(max(dot(x, x), dot(y, y)), 1.0));
+}
+
 /// Mean over a box around uv, exact for the map as a function that is constant on each texel: as wide
 /// as the kernel or, where that is more, as the pixel's footprint; at most `lookup_longest` texels,
 /// clipped to the map. Sixteen loads, whatever the size.

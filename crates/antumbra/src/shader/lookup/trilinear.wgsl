@@ -3,13 +3,16 @@
 /// What receivers read.
 alias LookupMap = texture_2d_array<f32>;
 
-/// Two mip levels, chosen so that a texel covers the longer side of the pixel's footprint. The
-/// level is computed here and not by the sampler: the same on every driver, legal in any control
-/// flow.
-fn lookup_filtered(map: LookupMap, map_sampler: sampler, uv: vec2f, layer: u32, ddx: vec2f, ddy: vec2f) -> vec4f {
-    let size = vec2f(textureDimensions(map));
+/// The level at which a texel covers the longer side of the pixel's footprint. It is computed here and
+/// not by the sampler: the same on every driver, legal in any control flow.
+fn lookup_level(size: vec2f, ddx: vec2f, ddy: vec2f) -> f32 {
     let x = ddx * size;
     let y = ddy * size;
-    let longest_squared = max(max(dot(x, x), dot(y, y)), 1.0);
-    return level_filtered(map, map_sampler, uv, layer, 0.5 * log2(longest_squared));
+    return 0.5 * log2(max(max(dot(x, x), dot(y, y)), 1.0));
+}
+
+/// Two mip levels around that one.
+fn lookup_filtered(map: LookupMap, map_sampler: sampler, uv: vec2f, layer: u32, ddx: vec2f, ddy: vec2f) -> vec4f {
+    let level = lookup_level(vec2f(textureDimensions(map)), ddx, ddy);
+    return level_filtered(map, map_sampler, uv, layer, level);
 }

@@ -1,11 +1,8 @@
 
-/// Level of the map of farthest depths whose texels are at least as wide as the footprint: no caster of
-/// a trilinear lookup lies outside its four texels around uv.
+/// Level of the map of farthest depths whose texels are at least as wide as those of a lookup: none of its
+/// casters lies outside the four texels around uv.
 fn esm_level(farthest: texture_2d_array<f32>, ddx: vec2f, ddy: vec2f) -> f32 {
-    let size = vec2f(textureDimensions(farthest));
-    let x = ddx * size;
-    let y = ddy * size;
-    let wanted = ceil(0.5 * log2(max(max(dot(x, x), dot(y, y)), 1.0)));
+    let wanted = ceil(lookup_level(vec2f(textureDimensions(farthest)), ddx, ddy));
     return min(wanted, f32(textureNumLevels(farthest) - 1u));
 }
 
