@@ -30,6 +30,7 @@ fn main() {
     trials.add("comparison_and_its_report", |_| comparison());
     trials.add("pictures", |_| pictures());
     trials.add("capacity_follows_from_the_scene", |_| capacity());
+    trials.add("what_is_refused_is_left_out", |gpu| refused(gpu.is_software()));
     trials.add("times", |_| times());
     trials.add("info", |_| {
         let info = json(&["info", "--json"]);
@@ -97,6 +98,26 @@ fn capacity() {
     let mean: f64 = held.split(", ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
     assert!(mean > 6.0, "the first guess would have done: {held}");
     assert!(exact.scores.hard.pixel_match > 0.995, "{}", exact.scores.hard.pixel_match);
+}
+
+/// A map that the device refuses ends nothing: 2 GiB of keys, in more buffers than an array may have.
+fn refused(software: bool) {
+    let run = |command: &str| {
+        let common = "contact --resolution 16x12 --size 4096 --rounds 1 --techniques hard dpm.keeps=32";
+        let folder = Folder::new();
+        let answer = folder.run(&[command, common].join(" ").split(' ').collect::<Vec<_>>());
+        assert_eq!(answer.code, Some(0), "{}", answer.err);
+        (folder, answer)
+    };
+    let (_, table) = run("bench");
+    assert!(table.out.contains("\nhard "), "{}", table.out);
+    // Graphics cards may have larger bindings.
+    if software {
+        assert!(table.out.contains("\ndpm.keeps=32  left out: dpm needs "), "{}", table.out);
+        assert!(table.err.contains("note: left out: dpm.keeps=32: "), "{}", table.err);
+        let only = ["bench", "contact", "--size", "4096", "--techniques", "dpm.keeps=32"];
+        Folder::new().run(&only).refusal(&["left out: dpm.keeps=32", "storage buffers"]);
+    }
 }
 
 fn export() {

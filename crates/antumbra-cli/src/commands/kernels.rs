@@ -54,9 +54,11 @@ impl Row {
     }
 
     fn cells(&self) -> Vec<String> {
-        let rest =
-            self.measured.as_ref().map_or_else(|| self.missing.iter().cloned().collect(), Measured::cells);
-        [vec![self.kernel.to_string(), self.technique.clone()], rest].concat()
+        let kernel = self.kernel.to_string();
+        match (&self.measured, &self.missing) {
+            (Some(measured), _) => [vec![kernel, self.technique.clone()], measured.cells()].concat(),
+            (None, why) => vec![kernel, format!("{} {}", self.technique, why.as_deref().unwrap_or_default())],
+        }
     }
 }
 
