@@ -3,7 +3,7 @@
 use crate::{
     classes::{self, ClassShare},
     gpu::Gpu,
-    lighting::{Lighting, Lookup},
+    lighting::{Lighting, Lookup, Pictures},
     metrics,
     plane::error_heat_map,
     report::file_stem,
@@ -197,13 +197,14 @@ pub fn compare(gpu: &Gpu, request: &Request, progress: &dyn Progress) -> Result<
     let Entered { contestants, left_out } = entered;
     let mut images = BTreeMap::new();
     let truths = truths::trace(gpu, request, &stage, &view, progress, &mut images)?;
+    let pictures = Pictures::new(gpu, &stage, &lighting)?;
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     stage.encode_surfaces(&mut encoder, None);
     gpu.finish(encoder)?;
     let mut rendered = Vec::new();
     for (i, contestant) in contestants.iter().enumerate() {
         progress.step(&format!("render {}", technique::spec(contestant.shadows.technique())));
-        rendered.push(render(gpu, &stage, &lighting, contestant, &truths, &mut images)?);
+        rendered.push(render(gpu, &stage, (&lighting, &pictures), contestant, &truths, &mut images)?);
         progress.share((i + 1) as f32 / contestants.len() as f32);
     }
     progress.step("time");
@@ -245,7 +246,7 @@ struct Rendered {
 fn render(
     gpu: &Gpu,
     stage: &Stage,
-    lighting: &Lighting,
+    (lighting, pictures): (&Lighting, &Pictures),
     contestant: &Contestant,
     truths: &Truths,
     images: &mut BTreeMap<String, Vec<u8>>,
@@ -253,10 +254,10 @@ fn render(
     let shadows = &contestant.shadows;
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     contestant.encode(&mut encoder, stage, lighting)?;
-    lighting.encode_picture(&mut encoder, stage);
+    pictures.encode(&mut encoder);
     gpu.finish(encoder)?;
     let test = lighting.read_visibility(gpu)?;
-    let picture = lighting.read_picture(gpu)?;
+    let picture = pictures.read(gpu)?;
     let spec = technique::spec(shadows.technique());
     let score =
         |truth: &Truth, mask: &[bool]| metrics::score(&test, &truth.plane, mask).context(spec.clone());

@@ -2,13 +2,17 @@
 
 use crate::{
     gpu::Gpu,
-    plane::{Plane, Rgba8Image},
+    plane::Plane,
     shaders,
-    stage::{Stage, fullscreen, loaded, surfaces::overwrite},
+    stage::{Stage, fullscreen, surfaces::overwrite},
 };
 use antumbra::ShadowMap;
 use anyhow::Result;
 use wgpu::TextureFormat;
+
+mod pictures;
+
+pub use pictures::Pictures;
 
 /// The full-screen pass that asks a shadow map about every surface.
 #[derive(Debug)]
@@ -52,15 +56,11 @@ impl Lookup {
     }
 }
 
-/// The visibility buffer (linear, one 32-bit channel) and the picture made from it.
+/// The visibility buffer: linear, one 32-bit channel.
 #[derive(Debug)]
 pub struct Lighting {
     visibility: wgpu::Texture,
     visibility_view: wgpu::TextureView,
-    picture: wgpu::Texture,
-    picture_view: wgpu::TextureView,
-    shade: wgpu::RenderPipeline,
-    shade_group: wgpu::BindGroup,
 }
 
 impl Lighting {
@@ -69,35 +69,8 @@ impl Lighting {
     pub fn new(gpu: &Gpu, stage: &Stage) -> Self {
         let size = stage.surfaces().resolution();
         let visibility = gpu.target("visibility", size, TextureFormat::R32Float);
-        let picture = gpu.target("picture", size, TextureFormat::Rgba8UnormSrgb);
         let visibility_view = visibility.create_view(&Default::default());
-        let layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some("visibility"),
-            entries: &[loaded(0)],
-        });
-        let shade_group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("visibility"),
-            layout: &layout,
-            entries: &[wgpu::BindGroupEntry {
-                binding: 0,
-                resource: wgpu::BindingResource::TextureView(&visibility_view),
-            }],
-        });
-        let source = wgpu::ShaderSource::Wgsl(shaders::PICTURE.into());
-        Self {
-            shade: fullscreen(
-                gpu,
-                "picture",
-                source,
-                &[&stage.surfaces().layout, &layout],
-                TextureFormat::Rgba8UnormSrgb,
-            ),
-            picture_view: picture.create_view(&Default::default()),
-            visibility,
-            visibility_view,
-            picture,
-            shade_group,
-        }
+        Self { visibility, visibility_view }
     }
 
     /// Fills the visibility buffer; `shadows` is `None` for [`Lookup::unshadowed`].
@@ -123,19 +96,6 @@ impl Lighting {
         pass.draw(0..3, 0..1);
     }
 
-    /// Shades the picture with what is in the visibility buffer.
-    pub fn encode_picture(&self, encoder: &mut wgpu::CommandEncoder, stage: &Stage) {
-        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some("picture"),
-            color_attachments: &[Some(overwrite(&self.picture_view))],
-            ..Default::default()
-        });
-        pass.set_pipeline(&self.shade);
-        pass.set_bind_group(0, &stage.surfaces().group, &[]);
-        pass.set_bind_group(1, &self.shade_group, &[]);
-        pass.draw(0..3, 0..1);
-    }
-
     /// The visibility buffer. Waits.
     ///
     /// # Errors
@@ -155,13 +115,5 @@ impl Lighting {
         };
         let texels = bytemuck::cast_slice(&plane.values);
         gpu.queue.write_texture(self.visibility.as_image_copy(), texels, layout, self.visibility.size());
-    }
-
-    /// The picture. Waits.
-    ///
-    /// # Errors
-    /// If the device is lost.
-    pub fn read_picture(&self, gpu: &Gpu) -> Result<Rgba8Image> {
-        Ok(Rgba8Image::new(self.picture.width(), self.picture.height(), gpu.read(&self.picture)?)?)
     }
 }

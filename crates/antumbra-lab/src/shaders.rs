@@ -18,8 +18,10 @@ pub(crate) const CLASS: &str = wgsl!("stage/frame.wgsl", "lighting/lookup.wgsl",
 /// Visibility where everything is lit.
 pub(crate) const UNSHADOWED: &str =
     wgsl!("stage/frame.wgsl", "lighting/lookup.wgsl", "lighting/visibility.wgsl", "lighting/unshadowed.wgsl");
+/// A sample's share of the light of every surface.
+pub(crate) const LIGHT: &str = wgsl!("stage/frame.wgsl", "lighting/light.wgsl");
 /// Visibility shaded.
-pub(crate) const PICTURE: &str = wgsl!("stage/frame.wgsl", "lighting/picture.wgsl");
+pub(crate) const PICTURE: &str = wgsl!("lighting/picture.wgsl");
 /// A caster parallel to the map.
 pub(crate) const FLAT_CASTER: &str = wgsl!("curve/caster.wgsl");
 /// Visibility of points, before a map's `shadow_visibility`.
@@ -45,7 +47,8 @@ mod tests {
     fn every_shader_is_portable() {
         let mut shaders = Shaders::default();
         let caster = [CASTER, antumbra::CASTER_WGSL].concat();
-        let alone = [("stage", STAGE), ("caster", caster.as_str()), ("unshadowed", UNSHADOWED)];
+        let alone =
+            [("stage", STAGE), ("caster", caster.as_str()), ("unshadowed", UNSHADOWED), ("light", LIGHT)];
         for (name, text) in alone.into_iter().chain([("picture", PICTURE), ("flat caster", FLAT_CASTER)]) {
             shaders.add(name, text.into(), &[], Needs::LEAST);
         }
@@ -76,7 +79,8 @@ mod tests {
         assert!(found.len() > 5, "{found:?}");
         for path in found {
             let text = std::fs::read_to_string(&path).unwrap();
-            let all = [STAGE, CASTER, CUTOUT, VISIBILITY, CLASS, UNSHADOWED, PICTURE, FLAT_CASTER, CURVE];
+            let all =
+                [STAGE, CASTER, CUTOUT, VISIBILITY, CLASS, UNSHADOWED, LIGHT, PICTURE, FLAT_CASTER, CURVE];
             assert!(all.iter().any(|all| all.contains(&text)), "{} is in no shader", path.display());
         }
     }

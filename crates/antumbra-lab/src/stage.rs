@@ -10,7 +10,7 @@ use antumbra::{Capacity, CasterPass, View};
 use antumbra_scene::{AlphaMode, Camera, Geometry, Light};
 use anyhow::{Result, bail};
 use bytemuck::{Pod, Zeroable};
-use glam::{Mat4, Vec3};
+use glam::{Mat4, Vec2, Vec3};
 use wgpu::{RenderPass, TextureFormat, TextureView};
 
 mod casters;
@@ -25,7 +25,7 @@ pub use casters::Casters;
 pub(crate) use frame::Frame;
 use materials::Materials;
 use pipelines::Pipelines;
-pub(crate) use pipelines::fullscreen;
+pub(crate) use pipelines::{fullscreen, fullscreen_into};
 pub use surfaces::Surfaces;
 
 /// Normal, texture coordinates, colour of a vertex.
@@ -48,6 +48,7 @@ pub struct Stage {
     materials: Materials,
     pipelines: Pipelines,
     camera_matrix: Mat4,
+    frame: Frame,
     frame_buffer: wgpu::Buffer,
     frame_group: wgpu::BindGroup,
     light_buffer: wgpu::Buffer,
@@ -123,6 +124,7 @@ impl Stage {
             materials,
             pipelines,
             camera_matrix,
+            frame,
             frame_buffer,
             light_buffer,
             light_stride,
@@ -151,7 +153,14 @@ impl Stage {
     pub fn look(&mut self, gpu: &Gpu, geometry: &Geometry, camera: &Camera, light: &Light) {
         let (frame, matrix) = Frame::new(camera, light, self.surfaces.resolution(), geometry);
         gpu.queue.write_buffer(&self.frame_buffer, 0, bytemuck::bytes_of(&frame));
-        self.camera_matrix = matrix;
+        (self.frame, self.camera_matrix) = (frame, matrix);
+    }
+
+    /// Moves the points of the picture plane at which surfaces are seen by `offset` pixels, x to the right and
+    /// y down, from the pixels' centres.
+    pub(crate) fn shift(&self, gpu: &Gpu, offset: Vec2) {
+        let frame = self.frame.shifted(offset, self.surfaces.resolution());
+        gpu.queue.write_buffer(&self.frame_buffer, 0, bytemuck::bytes_of(&frame));
     }
 
     /// Memory that a shadow map of this scene needs for triangles. How many of them share a texel is not known

@@ -12,7 +12,7 @@ use antumbra_lab::{
     compare::{self, Contestant, Entered, Progress},
     curve, flicker,
     gpu::Gpu,
-    lighting::{Lighting, Lookup},
+    lighting::{Lighting, Lookup, Pictures},
     maps::{self, Sheet},
     metrics::{self, Score},
     motion::Path,
@@ -170,6 +170,7 @@ impl<'a> Bench<'a> {
         let entries: Vec<_> = techniques.into_iter().map(|t| (t, bias)).collect();
         let (entered, view) = compare::enter_biased(gpu, &mut stage, geometry, light, &entries, map)?;
         let (contestants, left_out) = sound(entered);
+        let pictures = Pictures::new(gpu, &stage, &lighting)?;
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         stage.encode_surfaces(&mut encoder, None);
         gpu.finish(encoder)?;
@@ -178,7 +179,7 @@ impl<'a> Bench<'a> {
             let spec = specs[contestant.entry];
             self.progress.step(&format!("draw {spec} on {}", shot.scene));
             self.progress.share(i as f32 / specs.len() as f32);
-            looks.push(look(gpu, &stage, &lighting, contestant, spec)?);
+            looks.push(look(gpu, &stage, (&lighting, &pictures), contestant, spec)?);
         }
         let plane = compare::map_plane(&view);
         let view = ViewFacts {
@@ -250,11 +251,11 @@ impl<'a> Bench<'a> {
         let stage = self.stage(shot, scene)?;
         let lighting = Lighting::new(&self.gpu, &stage);
         lighting.write_visibility(&self.gpu, visibility);
+        let pictures = Pictures::new(&self.gpu, &stage, &lighting)?;
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
-        stage.encode_surfaces(&mut encoder, None);
-        lighting.encode_picture(&mut encoder, &stage);
+        pictures.encode(&mut encoder);
         self.gpu.finish(encoder)?;
-        Ok(lighting.read_picture(&self.gpu)?.into())
+        Ok(pictures.read(&self.gpu)?.into())
     }
 
     /// Scores a technique of a study against one of its truths, over the pixels that can be in shadow
@@ -460,14 +461,20 @@ fn sound(entered: Entered) -> (Vec<Contestant>, Vec<LeftOut>) {
 }
 
 /// Draws one technique on the surfaces that the stage already holds.
-fn look(gpu: &Gpu, stage: &Stage, lighting: &Lighting, contestant: &Contestant, spec: &str) -> Result<Look> {
+fn look(
+    gpu: &Gpu,
+    stage: &Stage,
+    (lighting, pictures): (&Lighting, &Pictures),
+    contestant: &Contestant,
+    spec: &str,
+) -> Result<Look> {
     let shadows: &ShadowMap = &contestant.shadows;
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     contestant.encode(&mut encoder, stage, lighting)?;
-    lighting.encode_picture(&mut encoder, stage);
+    pictures.encode(&mut encoder);
     gpu.finish(encoder)?;
     let visibility = lighting.read_visibility(gpu)?;
-    let picture = lighting.read_picture(gpu)?;
+    let picture = pictures.read(gpu)?;
     let numbers = contestant.read_classes(gpu, stage, lighting)?;
     let known = shadows.technique().classes();
     let tinted = match &numbers {

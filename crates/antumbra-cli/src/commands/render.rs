@@ -10,7 +10,7 @@ use antumbra_lab::{
     compare::{self, Contestant},
     files,
     gpu::Gpu,
-    lighting::Lighting,
+    lighting::{Lighting, Pictures},
     plane::Plane,
     stage::Stage,
 };
@@ -67,7 +67,6 @@ pub(crate) fn run(arguments: &Render) -> Result<()> {
             contestant.encode(&mut encoder, &stage, &lighting)?;
         }
     }
-    lighting.encode_picture(&mut encoder, &stage);
     gpu.finish(encoder)?;
     for why in contestants.iter().filter_map(Contestant::invalid) {
         let _ = writeln!(io::stderr(), "warning: {} is invalid: {why}", arguments.technique);
@@ -76,7 +75,13 @@ pub(crate) fn run(arguments: &Render) -> Result<()> {
     let bytes = match (extension.as_str(), arguments.show) {
         ("exr", _) => lighting.read_visibility(&gpu)?.to_exr()?,
         (_, Show::Visibility) => lighting.read_visibility(&gpu)?.to_gray_png()?,
-        (_, Show::Picture) => lighting.read_picture(&gpu)?.to_png()?,
+        (_, Show::Picture) => {
+            let pictures = Pictures::new(&gpu, &stage, &lighting)?;
+            let mut encoder = gpu.device.create_command_encoder(&Default::default());
+            pictures.encode(&mut encoder);
+            gpu.finish(encoder)?;
+            pictures.read(&gpu)?.to_png()?
+        }
         (_, Show::Classes) => {
             let contestant = contestants.first().context("no technique was named")?;
             let (bytes, counted) = tinted(&gpu, &stage, &lighting, contestant)?;

@@ -3,7 +3,7 @@
 use super::nearest;
 use antumbra_scene::{Camera, Geometry, Light, Projection};
 use bytemuck::{Pod, Zeroable};
-use glam::{Mat4, Vec3, Vec4, camera::rh};
+use glam::{Mat4, Vec2, Vec3, Vec4, camera::rh};
 
 /// Rust side of `Frame` in `stage/frame.wgsl`.
 #[repr(C)]
@@ -70,6 +70,18 @@ impl Frame {
             }
         }
         (frame, matrix * Mat4::from_translation(-camera.position))
+    }
+
+    /// The same with rays through other points of pixels, `offset` from their centres.
+    pub(super) fn shifted(&self, offset: Vec2, [width, height]: [u32; 2]) -> Self {
+        let [ray, right, down] = [self.ray, self.ray_right, self.ray_down].map(Vec4::from_array);
+        let clip = Vec3::new(-2.0 * offset.x / width as f32, 2.0 * offset.y / height as f32, 0.0);
+        let matrix = Mat4::from_translation(clip) * Mat4::from_cols_array_2d(&self.clip_from_relative);
+        Self {
+            clip_from_relative: matrix.to_cols_array_2d(),
+            ray: (ray + right * offset.x + down * offset.y).to_array(),
+            ..*self
+        }
     }
 }
 

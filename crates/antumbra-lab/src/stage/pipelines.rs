@@ -137,6 +137,17 @@ pub(crate) fn fullscreen(
     groups: &[&BindGroupLayout],
     format: TextureFormat,
 ) -> RenderPipeline {
+    fullscreen_into(gpu, label, source, groups, &[Some(format.into())])
+}
+
+/// The same into several targets, or with blending.
+pub(crate) fn fullscreen_into(
+    gpu: &Gpu,
+    label: &str,
+    source: wgpu::ShaderSource<'_>,
+    groups: &[&BindGroupLayout],
+    targets: &[Option<wgpu::ColorTargetState>],
+) -> RenderPipeline {
     let module = gpu.shader(label, source);
     let groups: Vec<_> = groups.iter().map(|g| Some(*g)).collect();
     let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
@@ -160,7 +171,7 @@ pub(crate) fn fullscreen(
             module: &module,
             entry_point: Some("fragment"),
             compilation_options: Default::default(),
-            targets: &[Some(format.into())],
+            targets,
         }),
         multiview_mask: None,
         cache: None,
