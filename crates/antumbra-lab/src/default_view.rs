@@ -1,13 +1,14 @@
 //! A camera and a sun for scenes that bring none, chosen so that the picture shows shadows.
 //!
-//! A few cameras (from outside, and from inside as for a building) and suns (all around, at three heights) are
+//! Cameras (from outside, or from inside where walls show their front all around) and suns (all around, at three heights) are
 //! tried with rays on a picture of 48×36 pixels. The score of a pair is the share of the picture that can be in
 //! shadow, weighed by how evenly light and shadow divide it; the first pair that comes near the best wins, so
-//! that the usual three-quarter view stays where it does its work.
+//! that the usual sun over the left shoulder stays where it does its work.
 
 use antumbra_scene::{Camera, Geometry, Light, Projection, Scene};
-use antumbra_truth::{CameraRays, Tracer, TruthError};
-use glam::{DVec3, Quat, Vec3};
+use antumbra_truth::{CameraRays, Hit, Tracer, TruthError};
+use glam::{Quat, Vec3};
+use std::f32::consts::TAU;
 
 /// Pixels of the trial pictures.
 const PICTURE: [u32; 2] = [48, 36];
@@ -17,6 +18,14 @@ const AS_GOOD: f64 = 0.8;
 const HEIGHTS: [f32; 3] = [0.79, 0.52, 1.05];
 /// Suns around the horizon that are tried.
 const AROUND: u32 = 8;
+/// Places of the eye, as shares of the scene's length from its middle, for views from inside.
+const EYES: [f32; 4] = [0.25, -0.25, 0.15, -0.15];
+/// Distance to what stands before the camera, as a share of the scene's size, that leaves the view clear.
+const CLEARANCE: f32 = 0.06;
+/// Closer views: the part of the picture's height that is to be filled. Shadows are to be seen beside it.
+const NEARNESS: [f32; 2] = [0.5, 1.0];
+/// Share of the triangles at either end of an axis that a closer view does not have to hold.
+const FEW: f32 = 0.02;
 /// Height of the eye above the floor, as a share of the scene's height, for views from inside.
 const EYE_HEIGHT: f32 = 0.12;
 
@@ -63,29 +72,76 @@ fn score(tracer: &Tracer<'_>, rays: &CameraRays, light: &Light) -> f64 {
     4.0 * share * (1.0 - share) * shadowable / picture.values.len() as f64
 }
 
-/// The usual view from outside, then two from inside, along the longer side.
+/// Of a building views from inside, along its longer side, of all else the usual one from outside.
 fn cameras(scene: &Scene, tracer: &Tracer<'_>) -> Vec<Camera> {
     let outside = scene.default_camera();
     let Some(bounds) = tracer.geometry().bounds() else { return vec![outside] };
     let (middle, size) = (bounds.center(), bounds.size());
     let along = if size.x >= size.z { Vec3::X * size.x } else { Vec3::Z * size.z };
-    let inside = |side: f32| {
-        let eye = middle - along * (0.3 * side);
-        let floor = below(tracer, outside, eye)?;
+    let inside = |offset: f32| {
+        let eye = middle - along * offset;
+        let floor = look(tracer, eye, Vec3::NEG_Y)?.position.y as f32;
         let position = Vec3::new(eye.x, floor + EYE_HEIGHT * size.y, eye.z);
         // A little above the eye: roofs and upper storeys are in the picture too.
-        let target = Vec3::new(middle.x, position.y + 0.05 * size.y, middle.z) + along * (0.2 * side);
-        Some(Camera { position, target, projection: Projection::Perspective { fov_y: 1.0 }, ..outside })
+        let target = position + along * offset.signum() * 0.4 + Vec3::Y * (0.04 * size.y);
+        let camera =
+            Camera { position, target, projection: Projection::Perspective { fov_y: 1.0 }, ..outside };
+        is_clear(tracer, &camera, CLEARANCE * size.length()).then_some(camera)
     };
-    [Some(outside), inside(1.0), inside(-1.0)].into_iter().flatten().collect()
+    if !is_inside(tracer, middle) {
+        let closer = NEARNESS.into_iter().filter_map(|n| closer(tracer.geometry(), &outside, n));
+        return std::iter::once(outside).chain(closer).collect();
+    }
+    EYES.into_iter().filter_map(inside).chain([outside]).collect()
 }
 
-/// Height of the first surface below a point; `None` if there is none.
-fn below(tracer: &Tracer<'_>, camera: Camera, point: Vec3) -> Option<f32> {
-    let down = Camera { position: point, target: point - Vec3::Y, up: Vec3::Z, ..camera };
-    let hits = tracer.primary(&CameraRays::new(&down, 1, 1).ok()?);
-    let position: DVec3 = hits.first().filter(|hit| hit.is_hit())?.position;
-    Some(position.y as f32)
+/// The same view of what most triangles are in: of an object rather than of the ground that it stands on.
+fn closer(geometry: &Geometry, outside: &Camera, nearness: f32) -> Option<Camera> {
+    let count = geometry.triangle_count();
+    let along = |axis: usize| {
+        let centre = |t: usize| geometry.triangle(t).iter().map(|corner| corner[axis]).sum::<f32>() / 3.0;
+        let mut centres: Vec<f32> = (0..count).map(centre).collect();
+        centres.sort_by(f32::total_cmp);
+        let at = |share: f32| centres.get(((count - 1) as f32 * share) as usize).copied();
+        Some([at(FEW)?, at(1.0 - FEW)?])
+    };
+    let [x, y, z] = [along(0)?, along(1)?, along(2)?];
+    let (low, high) = (Vec3::new(x[0], y[0], z[0]), Vec3::new(x[1], y[1], z[1]));
+    let backward = (outside.position - outside.target).normalize();
+    let Projection::Perspective { fov_y } = outside.projection else { return None };
+    let distance = 0.5 * (high - low).length() / (fov_y / 2.0).tan() / nearness;
+    let target = (low + high) / 2.0;
+    (distance > 0.0).then_some(Camera { position: target + backward * distance, target, ..*outside })
+}
+
+/// The first surface in a direction.
+fn look(tracer: &Tracer<'_>, eye: Vec3, direction: Vec3) -> Option<Hit> {
+    let up = if direction.y == 0.0 { Vec3::Y } else { Vec3::Z };
+    let projection = Projection::Perspective { fov_y: 1.0 };
+    let camera = Camera { position: eye, target: eye + direction, up, projection };
+    let hits = tracer.primary(&CameraRays::new(&camera, 1, 1).ok()?);
+    hits.first().copied().filter(Hit::is_hit)
+}
+
+/// Whether a point is within walls that show their front: rooms, as opposed to the inside of an object.
+fn is_inside(tracer: &Tracer<'_>, point: Vec3) -> bool {
+    let walls = (0..AROUND).filter(|i| {
+        let direction = Quat::from_rotation_y(*i as f32 * TAU / AROUND as f32) * Vec3::X;
+        look(tracer, point, direction).is_some_and(|hit| {
+            let [a, b, c] = tracer.geometry().triangle(hit.triangle as usize);
+            (b - a).cross(c - a).as_dvec3().dot(hit.normal) > 0.0
+        })
+    });
+    walls.count() as u32 >= AROUND - 2
+}
+
+/// Whether nothing stands right before a camera.
+fn is_clear(tracer: &Tracer<'_>, camera: &Camera, distance: f32) -> bool {
+    let Ok(rays) = CameraRays::new(camera, PICTURE[0], PICTURE[1]) else { return false };
+    let near =
+        |hit: &Hit| hit.is_hit() && hit.position.distance(camera.position.as_dvec3()) < f64::from(distance);
+    let hits = tracer.primary(&rays);
+    20 * hits.iter().filter(|hit| near(hit)).count() <= hits.len()
 }
 
 /// Suns all around a camera, the one over its left shoulder at 45° first.
@@ -93,7 +149,7 @@ fn suns(camera: &Camera) -> Vec<Light> {
     let forward = camera.target - camera.position;
     let level = Vec3::new(forward.x, 0.0, forward.z).normalize_or(Vec3::NEG_Z);
     let first = (level.cross(Vec3::Y) * 0.8 + level * 0.6).normalize();
-    let turned = |i: u32| Quat::from_rotation_y(i as f32 * std::f32::consts::TAU / AROUND as f32) * first;
+    let turned = |i: u32| Quat::from_rotation_y(i as f32 * TAU / AROUND as f32) * first;
     let sun = |height: f32, i: u32| {
         let direction = (turned(i) * height.cos() - Vec3::Y * height.sin()).normalize();
         Light::Directional { direction }
@@ -121,7 +177,7 @@ mod tests {
         let corner = |i: u32| {
             Vec3::new([-x, x][(i & 1) as usize], [0.0, y][(i >> 1 & 1) as usize], [-z, z][(i >> 2) as usize])
         };
-        let quads = [[0, 1, 5, 4], [0, 1, 3, 2], [4, 5, 7, 6], [0, 4, 6, 2], [1, 5, 7, 3]];
+        let quads = [[0, 4, 5, 1], [0, 1, 3, 2], [4, 6, 7, 5], [0, 2, 6, 4], [1, 5, 7, 3]];
         let indices = quads.iter().flat_map(|[a, b, c, d]| [*a, *b, *c, *a, *c, *d]).collect();
         let mesh = Mesh {
             positions: (0..8).map(corner).collect(),
@@ -158,6 +214,16 @@ mod tests {
         let (camera, light) = choose(&scene, &geometry, None, None).unwrap();
         let share = shadow(&geometry, &camera, &light);
         assert!((0.1..0.9).contains(&share), "{share}");
+        let bounds = geometry.bounds().unwrap();
+        assert!(
+            camera.position.cmpge(bounds.min).all() && camera.position.cmple(bounds.max).all(),
+            "{camera:?}"
+        );
+        // The same walls wound the other way around are an object.
+        let mut turned = scene;
+        turned.meshes[0].indices.chunks_exact_mut(3).for_each(|corners| corners.swap(1, 2));
+        let (camera, _) = choose(&turned, &turned.flatten(), None, None).unwrap();
+        assert_eq!(camera, turned.default_camera());
     }
 
     #[test]
