@@ -221,7 +221,7 @@ impl Curve {
                 .collect();
         }
         if self.turns {
-            let [from, to] = [from, to].map(|q| rotation(q));
+            let [from, to] = [from, to].map(rotation);
             return from.slerp(to, t).to_array().to_vec();
         }
         from.iter().zip(to).map(|(a, b)| a + (b - a) * t).collect()
