@@ -7,7 +7,7 @@ mod common;
 
 use antumbra::{Technique, technique::Bias};
 use antumbra_lab::{compare, plane::Plane};
-use antumbra_scene::{Camera, Light, Scene, procedural};
+use antumbra_scene::{Camera, Light, Projection, Scene, procedural};
 use antumbra_testing::{Gpu, Trials};
 use antumbra_truth::{Tracer, Visibility};
 use common::{KERNEL, Shot};
@@ -33,7 +33,12 @@ fn ground_with(blocks: impl Iterator<Item = [Vec3; 2]>, [eye, target]: [Vec3; 2]
         block.world_from_mesh = Mat4::from_translation(centre) * scale;
         scene.instances.push(block);
     }
-    scene.cameras = vec![Camera { position: eye, target, up: Vec3::Y, fov_y: 1.0 }];
+    scene.cameras = vec![Camera {
+        position: eye,
+        target,
+        up: Vec3::Y,
+        projection: Projection::Perspective { fov_y: 1.0 },
+    }];
     scene.lights = vec![Light::Directional { direction: sun.normalize() }];
     scene
 }
