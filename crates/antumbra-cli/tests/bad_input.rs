@@ -297,7 +297,7 @@ fn odd_but_good(trials: &mut Trials) {
         folder.run(&[&house[..], &["--light", "1"]].concat()).good();
         folder.run(&[&house[..], &["--light", "0"]].concat()).refusal(&[
             "--light 0",
-            "'point'",
+            "no node",
             "usable are: 1",
         ]);
         folder.run(&[&house[..], &["--time", "1"]].concat()).refusal(&["option time is 1", "no animations"]);
