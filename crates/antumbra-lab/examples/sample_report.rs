@@ -347,6 +347,7 @@ fn results(truth: &Truth, techniques: Vec<TechniqueResult>) -> Result<Results, B
                 up: [0.0, 1.0, 0.0],
                 lens: LensFacts::FovYDeg(50.0),
             },
+            origin: [0.0; 3],
             bounds: BoundsFacts { min: [-8.0, 0.0, -8.0], max: [8.0, 2.4, 8.0] },
         },
         resolution: [WIDTH, HEIGHT],

@@ -75,7 +75,7 @@ fn score(tracer: &Tracer<'_>, rays: &CameraRays, light: &Light) -> f64 {
 /// Of a building views from inside, along its longer side, of all else the usual one from outside.
 fn cameras(scene: &Scene, tracer: &Tracer<'_>) -> Vec<Camera> {
     let outside = scene.default_camera();
-    let Some(bounds) = tracer.geometry().bounds() else { return vec![outside] };
+    let Some(bounds) = scene.main_bounds() else { return vec![outside] };
     let (middle, size) = (bounds.center(), bounds.size());
     let along = if size.x >= size.z { Vec3::X * size.x } else { Vec3::Z * size.z };
     let inside = |offset: f32| {
@@ -189,7 +189,7 @@ mod tests {
         };
         Scene {
             meshes: vec![mesh],
-            instances: vec![Instance { mesh: 0, world_from_mesh: Default::default() }],
+            instances: vec![Instance::new(0, Default::default())],
             materials: vec![Material::default()],
             ..Default::default()
         }

@@ -76,6 +76,10 @@ pub struct SceneFacts {
     pub light: LightFacts,
     /// The camera.
     pub camera: CameraFacts,
+    /// The point of the file's coordinates that all others here are relative to: zero, unless those are
+    /// large against the scene.
+    #[serde(default)]
+    pub origin: [f64; 3],
     /// World-space box around the geometry.
     pub bounds: BoundsFacts,
 }

@@ -105,7 +105,7 @@ impl Setting {
     /// # Errors
     /// [`antumbra::LightError`], an empty scene.
     pub fn views(&self, camera: Mat4, maps: &[&ShadowMap]) -> Result<Vec<View>> {
-        let scene = self.geometry.bounds().context("the scene has no triangles")?;
+        let scene = self.geometry.bounds_around(self.camera.position).context("the scene has no triangles")?;
         views::fit(camera, scene, &self.light, self.cascades, maps)
     }
 

@@ -24,7 +24,7 @@ pub(crate) mod surfaces;
 pub use casters::Casters;
 pub(crate) use frame::Frame;
 use materials::Materials;
-use pipelines::Pipelines;
+use pipelines::{Group, Pipelines};
 pub(crate) use pipelines::{fullscreen, fullscreen_into};
 pub use surfaces::Surfaces;
 
@@ -43,8 +43,8 @@ pub struct Stage {
     positions: wgpu::Buffer,
     attributes: wgpu::Buffer,
     indices: wgpu::Buffer,
-    /// Ranges of indices and material numbers; opaque ones first.
-    groups: Vec<(usize, std::ops::Range<u32>, bool)>,
+    /// With ranges of indices; opaque ones first.
+    groups: Vec<(Group, std::ops::Range<u32>)>,
     materials: Materials,
     pipelines: Pipelines,
     camera_matrix: Mat4,
@@ -94,7 +94,7 @@ impl Stage {
         check_buffer(gpu, "corners of triangles", geometry.indices.len(), size_of::<u32>())?;
         let (frame, camera_matrix) = Frame::new(camera, light, resolution, geometry);
         let materials = Materials::new(gpu, geometry)?;
-        let pipelines = Pipelines::new(gpu, &materials.layout);
+        let pipelines = Pipelines::new(gpu, &materials.layout, geometry.single_sided);
         use wgpu::BufferUsages as Usage;
         let frame_buffer = gpu.buffer("frame", bytemuck::bytes_of(&frame), Usage::UNIFORM);
         let light_stride = 64u64.next_multiple_of(u64::from(limits.min_uniform_buffer_offset_alignment));
@@ -111,13 +111,17 @@ impl Stage {
                 }],
             })
         };
-        let masked = |m: usize| matches!(geometry.materials[m].alpha, AlphaMode::Mask { .. });
+        let group = |material: usize| Group {
+            material,
+            masked: matches!(geometry.materials[material].alpha, AlphaMode::Mask { .. }),
+            culled: geometry.single_sided && !geometry.materials[material].double_sided,
+        };
         let storage = |label, bytes, usage| gpu.buffer(label, bytes, usage | Usage::STORAGE);
         let stage = Self {
             positions: storage("positions", bytemuck::cast_slice(&geometry.positions), Usage::VERTEX),
             attributes: storage("attributes", bytemuck::cast_slice(&attributes), Usage::VERTEX),
             indices: storage("indices", bytemuck::cast_slice(&geometry.indices), Usage::INDEX),
-            groups: geometry.groups.iter().map(|(m, r)| (*m, 3 * r.start..3 * r.end, masked(*m))).collect(),
+            groups: geometry.groups.iter().map(|(m, r)| (group(*m), 3 * r.start..3 * r.end)).collect(),
             frame_group: uniform(&frame_buffer, size_of::<Frame>()),
             light_group: uniform(&light_buffer, size_of::<Mat4>()),
             surfaces: Surfaces::new(gpu, resolution, &frame_buffer),
@@ -201,22 +205,22 @@ impl Stage {
     /// Draws every caster into a shadow map's pass, for one of the views of
     /// [`set_views`](Self::set_views). Opaque ones first, in one draw.
     pub fn draw_casters(&self, casters: &Casters, view: &View, pass: &mut CasterPass<'_>) {
-        let opaque = self.groups.iter().filter(|g| !g.2).map(|g| g.1.end).max().unwrap_or(0);
+        let opaque = self.groups.iter().filter(|g| !g.0.masked).map(|g| g.1.end).max().unwrap_or(0);
         let Casters::Triangles { mesh, cutout } = casters else { return self.draw_depth(view, pass) };
         mesh.draw_part(view, pass, 0..opaque / 3);
         let Some((cutout, attributes)) = cutout else { return };
         pass.set_pipeline(cutout);
         pass.set_bind_group(3, attributes, &[]);
-        for (material, range, _) in self.groups.iter().filter(|g| g.2) {
-            pass.set_bind_group(2, &self.materials.groups[*material], &[]);
+        for (group, range) in self.groups.iter().filter(|g| g.0.masked) {
+            pass.set_bind_group(2, &self.materials.groups[group.material], &[]);
             mesh.draw_part(view, pass, range.start / 3..range.end / 3);
         }
     }
 
     /// Draws their depth, as seen from such a view, by pipelines of the stage's own.
     pub fn draw_depth(&self, view: &View, pass: &mut RenderPass<'_>) {
-        let opaque = self.groups.iter().filter(|g| !g.2).map(|g| g.1.end).max().unwrap_or(0);
-        let masked = self.groups.iter().filter(|g| g.2);
+        let opaque = self.groups.iter().filter(|g| !g.0.masked).map(|g| g.1.end).max().unwrap_or(0);
+        let masked = self.groups.iter().filter(|g| g.0.masked);
         let view = self.views.iter().position(|v| v == view);
         debug_assert!(view.is_some(), "casters drawn for a view that set_views was not told of");
         let Some(view) = view else { return };
@@ -230,8 +234,8 @@ impl Stage {
             pass.draw_indexed(0..opaque, 0, 0..1);
         }
         pass.set_pipeline(&self.pipelines.masked_caster);
-        for (material, range, _) in masked {
-            pass.set_bind_group(1, &self.materials.groups[*material], &[]);
+        for (group, range) in masked {
+            pass.set_bind_group(1, &self.materials.groups[group.material], &[]);
             pass.draw_indexed(range.clone(), 0, 0..1);
         }
     }
@@ -247,9 +251,9 @@ impl Stage {
         pass.set_vertex_buffer(1, self.attributes.slice(..));
         pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
         pass.set_bind_group(0, &self.frame_group, &[0]);
-        for (material, range, masked) in &self.groups {
-            pass.set_pipeline(if *masked { &self.pipelines.masked_surface } else { &self.pipelines.surface });
-            pass.set_bind_group(1, &self.materials.groups[*material], &[]);
+        for (group, range) in &self.groups {
+            pass.set_pipeline(self.pipelines.surface(*group));
+            pass.set_bind_group(1, &self.materials.groups[group.material], &[]);
             pass.draw_indexed(range.clone(), 0, 0..1);
         }
     }
@@ -289,13 +293,9 @@ impl Stage {
             pass.set_vertex_buffer(0, positions.slice(..));
             pass.set_vertex_buffer(1, attributes.slice(..));
             pass.set_bind_group(0, &self.frame_group, &[0]);
-            for (material, range, masked) in &self.groups {
-                pass.set_pipeline(if *masked {
-                    &self.pipelines.masked_number
-                } else {
-                    &self.pipelines.number
-                });
-                pass.set_bind_group(1, &self.materials.groups[*material], &[]);
+            for (group, range) in &self.groups {
+                pass.set_pipeline(self.pipelines.number(*group));
+                pass.set_bind_group(1, &self.materials.groups[group.material], &[]);
                 pass.draw(range.clone(), 0..1);
             }
         }

@@ -15,7 +15,7 @@ use antumbra_scene::{
 use antumbra_testing::Trials;
 use antumbra_truth::Tracer;
 use common::{KERNEL, Shot, score};
-use glam::{DVec3, Mat4, Vec2, Vec3, Vec4};
+use glam::{DMat4, DVec3, Vec2, Vec3, Vec4};
 
 fn main() {
     let mut trials = Trials::default();
@@ -39,6 +39,7 @@ fn main() {
         scene.cameras[0] = Camera { position, projection, up: Vec3::new(0.4, 1.0, 0.1), ..own };
         sees_what_rays_see(&Shot::new(gpu, &scene, [320, 240]), 0.999);
     });
+    trials.add("backs_of_single_sided_walls_are_seen_through", dollhouse);
     trials.add("a_near_surface_is_not_clipped", near_surface);
     trials.add("coverage_notices_another_camera", another_camera);
     trials.add("cutouts_cast_their_holes", holes);
@@ -59,11 +60,41 @@ fn sees_what_rays_see(shot: &Shot, least: f64) {
     assert!(coverage.agree > 0);
 }
 
+/// A wall that turns its back to the camera, in front of a ground: raster and rays see through it, and it
+/// casts its shadow all the same.
+fn dollhouse(gpu: &antumbra_testing::Gpu) {
+    let mut scene = checkered(true);
+    let wall = [(-1.0, 2.0), (-1.0, 0.2), (1.0, 0.2), (1.0, 2.0)].map(|(x, y)| Vec3::new(x, y, 1.0));
+    let single = Material { double_sided: false, ..Material::default() };
+    scene.materials.push(single);
+    // Anticlockwise from behind.
+    scene.meshes.push(quad([wall[3], wall[2], wall[1], wall[0]], 2));
+    scene.instances.push(Instance::new(2, DMat4::IDENTITY));
+    let see = |single_sided| {
+        let mut shot = Shot::with(gpu, &scene, [320, 240], |geometry| geometry.single_sided = single_sided);
+        sees_what_rays_see(&shot, 0.999);
+        let hits = Tracer::new(&shot.geometry).unwrap().primary(&shot.rays());
+        let wall = shot.geometry.groups.iter().find(|(m, _)| *m == 2).unwrap().1.clone();
+        let seen = hits.iter().filter(|hit| wall.contains(&hit.triangle)).count();
+        let truth = shot.hard_truth();
+        let score = score(&shot.answer(&Hard::default(), 1024, Bias::Auto), &truth).pixel_match;
+        assert!(score > 0.98, "pixel match {score}");
+        (seen, truth.values.iter().filter(|v| **v < 0.5).count())
+    };
+    let (both, dark_before) = see(false);
+    let (front, dark_behind) = see(true);
+    assert!(both > 5000 && front == 0, "{both} and {front} pixels show the wall");
+    assert!(
+        dark_behind > dark_before,
+        "its shadow on the ground comes into sight: {dark_before}, {dark_behind}"
+    );
+}
+
 /// A millimetre from the ground of a scene that a stray triangle makes kilometres wide.
 fn near_surface(gpu: &antumbra_testing::Gpu) {
     let mut scene = checkered(false);
     scene.meshes.push(quad(square(1.0, 0.0, 0.0).map(|p| p + 9000.0 * Vec3::X), 0));
-    scene.instances.push(Instance { mesh: 2, world_from_mesh: Mat4::IDENTITY });
+    scene.instances.push(Instance::new(2, DMat4::IDENTITY));
     scene.cameras[0] = Camera {
         position: Vec3::new(0.0, 0.001, 2.5),
         target: Vec3::new(0.0, -0.01, 2.49),
@@ -107,7 +138,7 @@ fn square(half: f32, height: f32, tilt: f32) -> [Vec3; 4] {
 fn placed(meshes: Vec<Mesh>, materials: Vec<Material>, images: Vec<Image>) -> Scene {
     Scene {
         name: "quads".into(),
-        instances: (0..meshes.len()).map(|mesh| Instance { mesh, world_from_mesh: Mat4::IDENTITY }).collect(),
+        instances: (0..meshes.len()).map(|mesh| Instance::new(mesh, DMat4::IDENTITY)).collect(),
         meshes,
         materials,
         images,
@@ -118,7 +149,7 @@ fn placed(meshes: Vec<Mesh>, materials: Vec<Material>, images: Vec<Image>) -> Sc
             projection: Projection::Perspective { fov_y: 0.8 },
         }],
         lights: vec![Light::Directional { direction: Vec3::new(0.3, -1.0, 0.35).normalize() }],
-        notes: Vec::new(),
+        ..Scene::default()
     }
 }
 

@@ -119,6 +119,7 @@ fn results() -> Results {
                 up: [0.0, 1.0, 0.0],
                 lens: LensFacts::FovYDeg(45.0),
             },
+            origin: [0.0; 3],
             bounds: BoundsFacts { min: [-1.0; 3], max: [1.0; 3] },
         },
         resolution: [12, 12],

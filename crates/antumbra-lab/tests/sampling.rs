@@ -25,12 +25,12 @@ fn ground_with(blocks: impl Iterator<Item = [Vec3; 2]>, [eye, target]: [Vec3; 2]
     let mesh = |name: &str| scene.meshes.iter().position(|m| m.name == name).unwrap();
     let (ground, low) = (mesh("ground"), mesh("box"));
     scene.instances.retain(|instance| instance.mesh == ground);
-    scene.instances[0].world_from_mesh = Mat4::from_scale(Vec3::new(40.0, 1.0, 40.0));
+    scene.instances[0].world_from_mesh = Mat4::from_scale(Vec3::new(40.0, 1.0, 40.0)).as_dmat4();
     for [centre, sides] in blocks {
         let scale = Mat4::from_scale(sides / Vec3::new(1.4, 0.35, 0.8));
         let mut block = scene.instances[0];
         block.mesh = low;
-        block.world_from_mesh = Mat4::from_translation(centre) * scale;
+        block.world_from_mesh = (Mat4::from_translation(centre) * scale).as_dmat4();
         scene.instances.push(block);
     }
     scene.cameras = vec![Camera {

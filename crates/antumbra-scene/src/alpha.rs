@@ -92,7 +92,7 @@ impl Geometry {
 mod tests {
     use super::*;
     use crate::{Instance, Material, Mesh, Scene};
-    use glam::{Mat4, Vec2, Vec3, Vec4};
+    use glam::{DMat4, Vec2, Vec3, Vec4};
 
     fn image(repeat: bool) -> Image {
         let rgba = [0, 255, 102, 51].iter().flat_map(|&a| [9, 9, 9, a]).collect();
@@ -143,7 +143,7 @@ mod tests {
         };
         let scene = Scene {
             meshes: vec![mesh],
-            instances: vec![Instance { mesh: 0, world_from_mesh: Mat4::IDENTITY }],
+            instances: vec![Instance::new(0, DMat4::IDENTITY)],
             materials: vec![Material::default(), mask],
             images: vec![image],
             ..Scene::default()

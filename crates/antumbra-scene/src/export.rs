@@ -1,7 +1,7 @@
 //! Scenes as binary glTF, for other programs and for [`import`](crate::import).
 
 use crate::{Aabb, AlphaMode, Camera, Image, Light, Material, Mesh, Projection, Scene, SceneError};
-use glam::{Mat4, Vec2, Vec3, Vec4};
+use glam::{DVec3, Mat4, Vec2, Vec3, Vec4};
 use serde_json::{Value, json};
 
 /// Why a scene cannot be written.
@@ -42,7 +42,8 @@ const REPEAT: u32 = 10_497;
 /// are [`Scene::notes`].
 ///
 /// [`import::gltf_bytes`](crate::import::gltf_bytes) reads back the same triangles, bit for bit, and
-/// the same views but for rounding; a camera's target comes back one unit in front of it.
+/// the same views but for rounding; a camera's target comes back one unit in front of it. A scene with an
+/// origin of its own hangs on one node there, and comes back as near as double precision has it.
 ///
 /// Cost: 24 to 48 bytes a vertex and 12 a triangle of each mesh, however often it is placed.
 ///
@@ -89,8 +90,14 @@ pub fn glb(scene: &Scene) -> Result<Vec<u8>, ExportError> {
     let sampler = |i: &Image| json!({ "wrapS": wrap(i.repeat[0]), "wrapT": wrap(i.repeat[1]) });
     put("samplers", scene.images.iter().map(sampler).collect());
     put("cameras", scene.cameras.iter().map(|c| camera(c, scene)).collect());
-    let nodes = nodes(scene, &places);
-    put("scenes", vec![json!({ "name": scene.name, "nodes": (0..nodes.len()).collect::<Vec<_>>() })]);
+    let mut nodes = nodes(scene, &places);
+    let mut roots: Vec<usize> = (0..nodes.len()).collect();
+    let origin = scene.placement.direction(scene.placement.origin);
+    if origin != DVec3::ZERO {
+        nodes.push(json!({ "name": "origin", "translation": origin.to_array(), "children": roots }));
+        roots = vec![nodes.len() - 1];
+    }
+    put("scenes", vec![json!({ "name": scene.name, "nodes": roots })]);
     put("nodes", nodes);
     put("buffers", vec![json!({ "byteLength": file.bytes.len() })]);
     put("bufferViews", file.views);
@@ -229,8 +236,18 @@ fn nodes(scene: &Scene, places: &[Option<usize>]) -> Vec<Value> {
     let meshes = scene.instances.iter().filter_map(|instance| {
         let mesh = places[instance.mesh]?;
         let mut node = json!({ "mesh": mesh });
-        if instance.world_from_mesh != Mat4::IDENTITY {
-            node["matrix"] = json!(instance.world_from_mesh.to_cols_array());
+        if let Some(name) =
+            instance.node.and_then(|n| Some(&scene.nodes.get(n)?.name)).filter(|n| !n.is_empty())
+        {
+            node["name"] = json!(name);
+        }
+        let matrix = instance.world_from_mesh;
+        let single = matrix.as_mat4();
+        if single.as_dmat4() != matrix {
+            node["matrix"] = json!(matrix.to_cols_array());
+        } else if single != Mat4::IDENTITY {
+            // The same number in fewer digits.
+            node["matrix"] = json!(single.to_cols_array());
         }
         Some(node)
     });

@@ -14,22 +14,27 @@ impl Scene {
     /// Cost: reads every index of every instance.
     #[must_use]
     pub fn bounds(&self) -> Option<Aabb> {
+        Aabb::around(self.placed_points())
+    }
+
+    /// Every corner of every triangle.
+    pub(crate) fn placed_points(&self) -> impl Iterator<Item = Vec3> {
         let placed = self.instances.iter().filter_map(|i| Some((self.meshes.get(i.mesh)?, i)));
-        Aabb::around(placed.flat_map(|(mesh, instance)| {
-            let matrix = instance.world_from_mesh.as_dmat4();
+        placed.flat_map(|(mesh, instance)| {
+            let matrix = instance.world_from_mesh;
             mesh.indices.iter().filter_map(move |&i| {
                 let p = mesh.positions.get(i as usize)?;
                 Some(matrix.transform_point3(p.as_dvec3()).as_vec3())
             })
-        }))
+        })
     }
 
-    /// A three-quarter view from the front, right and above that sees the whole scene in a picture
-    /// of 4:3 or wider. Scenes without triangles get a view of the unit cube.
+    /// A three-quarter view from the front, right and above that sees the whole scene but for
+    /// [strays](Self::strays) in a picture of 4:3 or wider. Scenes without triangles get a view of the unit cube.
     #[must_use]
     pub fn default_camera(&self) -> Camera {
         let unit = Aabb { min: Vec3::splat(-0.5), max: Vec3::splat(0.5) };
-        let bounds = self.bounds().unwrap_or(unit);
+        let bounds = self.main_bounds().unwrap_or(unit);
         let backward = EYE.normalize();
         let right = Vec3::Y.cross(backward).normalize();
         let up = backward.cross(right);

@@ -1,6 +1,6 @@
 //! World-space triangles: what raster and rays share.
 
-use crate::{AlphaMode, Image, Instance, Material, Mesh, Scene};
+use crate::{AlphaMode, Image, Instance, Material, Mesh, Placement, Scene};
 use glam::{DMat3, DVec3, Vec2, Vec3, Vec4};
 
 /// Axis-aligned box.
@@ -73,6 +73,11 @@ pub struct Geometry {
     pub materials: Vec<Material>,
     /// The scene's images.
     pub images: Vec<Image>,
+    /// Where the scene lies in its file's coordinates.
+    pub placement: Placement,
+    /// Whether cameras see single-sided materials from their front alone. Light is stopped from both sides
+    /// all the same, so that a room whose front wall a camera looks through has its shadows.
+    pub single_sided: bool,
 }
 
 impl Geometry {
@@ -92,6 +97,20 @@ impl Geometry {
     #[must_use]
     pub fn corners(&self, t: usize) -> [usize; 3] {
         [0, 1, 2].map(|k| self.indices[3 * t + k] as usize)
+    }
+
+    /// Whether a camera that looks along `direction` passes through triangle `t`, since that turns its back.
+    #[must_use]
+    pub fn is_seen_through(&self, t: usize, direction: DVec3) -> bool {
+        let double_sided = || {
+            let material = self.material_of(t).and_then(|m| self.materials.get(m));
+            material.is_none_or(|material| material.double_sided)
+        };
+        if !self.single_sided || double_sided() {
+            return false;
+        }
+        let [a, b, c] = self.triangle(t).map(Vec3::as_dvec3);
+        (b - a).cross(c - a).dot(direction) > 0.0
     }
 
     /// Smallest box around every triangle; `None` if there are none.
@@ -130,17 +149,23 @@ impl Scene {
         let mut out = Geometry {
             materials: self.materials.clone(),
             images: self.images.clone(),
+            placement: self.placement,
             ..Geometry::default()
         };
         let opaque_first = |masked: bool| {
             self.materials.iter().enumerate().filter(move |(_, m)| (m.alpha != AlphaMode::Opaque) == masked)
         };
+        let mut placed: Vec<Vec<(&Mesh, &Instance)>> = vec![Vec::new(); self.materials.len()];
+        for instance in &self.instances {
+            let mesh = self.meshes.get(instance.mesh);
+            if let Some((mesh, list)) = mesh.and_then(|mesh| Some((mesh, placed.get_mut(mesh.material)?))) {
+                list.push((mesh, instance));
+            }
+        }
         for (material, _) in opaque_first(false).chain(opaque_first(true)) {
             let start = out.triangle_count();
-            for instance in &self.instances {
-                if let Some(mesh) = self.meshes.get(instance.mesh).filter(|m| m.material == material) {
-                    append(&mut out, mesh, instance);
-                }
+            for (mesh, instance) in &placed[material] {
+                append(&mut out, mesh, instance);
             }
             let end = out.triangle_count();
             if end > start {
@@ -159,7 +184,7 @@ fn append(out: &mut Geometry, mesh: &Mesh, instance: &Instance) {
     if !whole || first + vertices > u32::MAX as usize {
         return;
     }
-    let matrix = instance.world_from_mesh.as_dmat4();
+    let matrix = instance.world_from_mesh;
     let linear = DMat3::from_mat4(matrix);
     let mirrored = linear.determinant() < 0.0;
     // The cofactor matrix is det · inverse transpose: it needs no division, so it also serves
@@ -190,7 +215,7 @@ fn append(out: &mut Geometry, mesh: &Mesh, instance: &Instance) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use glam::{Mat4, Quat};
+    use glam::{DMat4, DQuat};
 
     /// A triangle facing +z.
     fn mesh(material: usize) -> Mesh {
@@ -205,10 +230,10 @@ mod tests {
         }
     }
 
-    fn scene(transforms: &[Mat4]) -> Scene {
+    fn scene(transforms: &[DMat4]) -> Scene {
         Scene {
             meshes: vec![mesh(0)],
-            instances: transforms.iter().map(|&m| Instance { mesh: 0, world_from_mesh: m }).collect(),
+            instances: transforms.iter().map(|&m| Instance::new(0, m)).collect(),
             materials: vec![Material::default()],
             ..Scene::default()
         }
@@ -216,8 +241,8 @@ mod tests {
 
     #[test]
     fn geometric_normals_agree_with_shading_normals() {
-        let turn = Mat4::from_quat(Quat::from_rotation_x(0.7) * Quat::from_rotation_y(2.0));
-        let scale = |x, y, z| turn * Mat4::from_scale(Vec3::new(x, y, z));
+        let turn = DMat4::from_quat(DQuat::from_rotation_x(0.7) * DQuat::from_rotation_y(2.0));
+        let scale = |x, y, z| turn * DMat4::from_scale(DVec3::new(x, y, z));
         let transforms =
             [scale(1.0, 2.0, 0.1), scale(-1.0, 2.0, 3.0), scale(1.0, -3.0, 1.0), scale(-1.0, -1.0, -5.0)];
         let geometry = scene(&transforms).flatten();
@@ -227,14 +252,14 @@ mod tests {
             let normal = geometry.normals[geometry.corners(t)[0]];
             assert!(geometric.dot(normal) > 0.999, "instance {t}");
             // The side that the mesh meant: where its +z goes.
-            assert!(geometric.dot(transform.transform_vector3(Vec3::Z)) > 0.0, "instance {t}");
+            assert!(geometric.as_dvec3().dot(transform.transform_vector3(DVec3::Z)) > 0.0, "instance {t}");
         }
     }
 
     #[test]
     fn flattened_instances_keep_a_normal() {
         let geometry =
-            scene(&[Mat4::from_scale(Vec3::new(2.0, 2.0, 0.0)), Mat4::from_scale(Vec3::ZERO)]).flatten();
+            scene(&[DMat4::from_scale(DVec3::new(2.0, 2.0, 0.0)), DMat4::from_scale(DVec3::ZERO)]).flatten();
         assert_eq!(geometry.normals[0], Vec3::Z);
         assert!(geometry.normals.iter().all(|n| n.is_normalized()));
         assert_eq!((geometry.triangle_count(), geometry.zero_area_count()), (2, 1));
@@ -242,11 +267,11 @@ mod tests {
 
     #[test]
     fn opaque_groups_come_first() {
-        let mut scene = scene(&[Mat4::IDENTITY]);
+        let mut scene = scene(&[DMat4::IDENTITY]);
         let cut = Material { alpha: AlphaMode::Mask { cutoff: 0.5 }, ..Material::default() };
         scene.materials = vec![cut.clone(), Material::default(), cut, Material::default()];
         scene.meshes = [3, 0, 1, 0].map(mesh).to_vec();
-        scene.instances = (0..4).map(|mesh| Instance { mesh, world_from_mesh: Mat4::IDENTITY }).collect();
+        scene.instances = (0..4).map(|mesh| Instance::new(mesh, DMat4::IDENTITY)).collect();
         let geometry = scene.flatten();
         assert_eq!(geometry.groups, [(1, 0..1), (3, 1..2), (0, 2..4)]);
         assert_eq!([0, 1, 2, 3].map(|t| geometry.material_of(t)), [1, 3, 0, 0].map(Some));
@@ -254,7 +279,7 @@ mod tests {
 
     #[test]
     fn bounds_ignore_unused_vertices() {
-        let mut scene = scene(&[Mat4::from_translation(Vec3::ONE)]);
+        let mut scene = scene(&[DMat4::from_translation(DVec3::ONE)]);
         scene.meshes[0].positions[2] = Vec3::splat(50.0);
         scene.meshes[0].indices = vec![0, 1, 1];
         let bounds = scene.flatten().bounds();

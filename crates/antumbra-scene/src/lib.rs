@@ -21,16 +21,21 @@
 //! ```
 
 mod alpha;
+mod bulk;
 pub mod export;
 mod framing;
 mod geometry;
 pub mod import;
+mod leave_out;
 mod numbers;
+mod placement;
 pub mod procedural;
 mod scene;
 mod validate;
 
 pub use geometry::{Aabb, Geometry};
+pub use leave_out::UnknownName;
 pub use numbers::Numbered;
-pub use scene::{AlphaMode, Camera, Image, Instance, Light, Material, Mesh, Projection, Scene};
+pub use placement::{Placement, Up};
+pub use scene::{AlphaMode, Camera, Image, Instance, Light, Material, Mesh, Node, Projection, Scene};
 pub use validate::SceneError;

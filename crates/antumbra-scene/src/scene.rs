@@ -1,10 +1,11 @@
 //! The scene as files describe it.
 
-use crate::Numbered;
-use glam::{Mat4, Vec2, Vec3, Vec4};
+use crate::{Numbered, Placement};
+use glam::{DMat4, Vec2, Vec3, Vec4};
 
 /// Meshes, materials and images, the instances that place the meshes, and what was said of cameras
-/// and lights. +Y is up; lengths are in the scene's own unit (metres for glTF).
+/// and lights. +Y is up; lengths are in the scene's own unit (metres for glTF). Where a file's coordinates
+/// are large against the scene, the scene has an origin of its own: see [`Placement`].
 #[derive(Debug, Clone, Default)]
 pub struct Scene {
     /// Name of the file or generator.
@@ -13,6 +14,8 @@ pub struct Scene {
     pub meshes: Vec<Mesh>,
     /// Where each mesh stands. Several instances may share one mesh.
     pub instances: Vec<Instance>,
+    /// Nodes of a glTF file, objects and groups of an OBJ file; `Instance::node` indexes them.
+    pub nodes: Vec<Node>,
     /// Surface descriptions; `Mesh::material` indexes them.
     pub materials: Vec<Material>,
     /// Decoded images; `Material::base_color_image` indexes them.
@@ -26,6 +29,8 @@ pub struct Scene {
     pub camera_numbers: Vec<Numbered>,
     /// Every light of the file, likewise.
     pub light_numbers: Vec<Numbered>,
+    /// Where the scene lies in its file's coordinates.
+    pub placement: Placement,
     /// What an importer left out or changed, one sentence each.
     pub notes: Vec<String>,
 }
@@ -55,8 +60,28 @@ pub struct Mesh {
 pub struct Instance {
     /// Index into `Scene::meshes`.
     pub mesh: usize,
-    /// Affine transform; may mirror and scale non-uniformly.
-    pub world_from_mesh: Mat4,
+    /// Index into `Scene::nodes`: the node or group that it hangs on, if there is one.
+    pub node: Option<usize>,
+    /// Affine transform; may mirror and scale non-uniformly. In double precision, since meshes may have
+    /// coordinates of their own that are far from the scene's origin.
+    pub world_from_mesh: DMat4,
+}
+
+impl Instance {
+    /// One that hangs on nothing.
+    #[must_use]
+    pub fn new(mesh: usize, world_from_mesh: DMat4) -> Self {
+        Self { mesh, node: None, world_from_mesh }
+    }
+}
+
+/// What a file calls a part of the scene.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Node {
+    /// Its name; may be empty, need not be the only one.
+    pub name: String,
+    /// Index into `Scene::nodes`: what it hangs on. There are no loops.
+    pub parent: Option<usize>,
 }
 
 /// How a surface uses the alpha of its base colour.
@@ -86,7 +111,8 @@ pub struct Material {
     pub roughness: f32,
     /// Cut-out or not. Blended surfaces are imported as opaque.
     pub alpha: AlphaMode,
-    /// What the file says; casters and rays treat every triangle as two-sided either way.
+    /// What the file says. Casters stop light from both sides either way, and so do cameras unless
+    /// [`Geometry::single_sided`](crate::Geometry::single_sided) says so.
     pub double_sided: bool,
 }
 
@@ -203,5 +229,14 @@ impl Light {
             asked.to_degrees(),
             Self::MAX_OUTER_ANGLE.to_degrees()
         )
+    }
+
+    /// Moves it: its direction, and its position about the scene's origin.
+    pub(crate) fn turn(&mut self, turned: impl Fn(Vec3) -> Vec3) {
+        let (Self::Directional { direction } | Self::Spot { direction, .. }) = self;
+        *direction = turned(*direction);
+        if let Self::Spot { position, .. } = self {
+            *position = turned(*position);
+        }
     }
 }

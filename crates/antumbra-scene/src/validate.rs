@@ -200,7 +200,7 @@ impl Scene {
             });
         }
         for (index, instance) in self.instances.iter().enumerate() {
-            let matrix = instance.world_from_mesh.as_dmat4();
+            let matrix = instance.world_from_mesh;
             for (vertex, p) in self.meshes[instance.mesh].positions.iter().enumerate() {
                 let world = matrix.transform_point3(p.as_dvec3()).as_vec3();
                 if !world.is_finite() {
@@ -315,7 +315,7 @@ fn validate_mesh(index: usize, mesh: &Mesh) -> Result<(), SceneError> {
 mod tests {
     use super::*;
     use crate::procedural;
-    use glam::Mat4;
+    use glam::{DMat4, DVec3};
 
     fn message(change: impl FnOnce(&mut Scene)) -> String {
         let mut scene = procedural::by_name("contact").map(|p| p.scene(1)).unwrap_or_default();
@@ -350,7 +350,7 @@ mod tests {
         assert!(message(|s| s.meshes[0].uvs.truncate(3)).contains("has 3 uvs for 4 positions"));
         assert!(message(|s| s.meshes[0].indices.truncate(5)).contains("has 5 indices"));
         assert!(
-            message(|s| s.instances[0].world_from_mesh = Mat4::from_scale(Vec3::splat(f32::NAN)))
+            message(|s| s.instances[0].world_from_mesh = DMat4::from_scale(DVec3::NAN))
                 .starts_with("instance 0 moves vertex 0 of mesh 0 to (NaN")
         );
     }

@@ -7,7 +7,7 @@ use antumbra_scene::{
     export::{self, ExportError},
     import, procedural,
 };
-use glam::{Mat4, Quat, Vec2, Vec3, Vec4};
+use glam::{DMat4, DVec3, Mat4, Quat, Vec2, Vec3, Vec4};
 
 fn same_camera(a: &Camera, b: &Camera) {
     let forward = |c: &Camera| (c.target - c.position).normalize();
@@ -95,9 +95,9 @@ fn cut_out() -> Scene {
         name: "cut-out".into(),
         meshes: vec![Mesh { material: 0, ..Mesh::default() }, mesh],
         instances: vec![
-            Instance { mesh: 1, world_from_mesh: turned },
-            Instance { mesh: 0, world_from_mesh: Mat4::IDENTITY },
-            Instance { mesh: 1, world_from_mesh: Mat4::IDENTITY },
+            Instance::new(1, turned.as_dmat4()),
+            Instance::new(0, DMat4::IDENTITY),
+            Instance::new(1, DMat4::IDENTITY),
         ],
         materials: vec![material],
         images: vec![image],
@@ -121,6 +121,25 @@ fn images_colours_and_mirrored_instances_come_back() {
     assert_eq!(back.images.len(), 1);
     assert_eq!((&back.images[0].rgba, back.images[0].repeat), (&scene.images[0].rgba, [true, false]));
     assert_eq!(back.instances.len(), 2);
+}
+
+#[test]
+fn an_origin_comes_back() {
+    let mut scene = cut_out();
+    scene.placement.origin = DVec3::new(4_180_370.0, -20.0, 855_120.0);
+    scene.cameras.push(procedural::by_name("contact").unwrap().scene(1).cameras[0]);
+    let back = import::gltf_bytes(&export::glb(&scene).unwrap(), "far").unwrap();
+    let moved = |scene: &Scene| {
+        let geometry = scene.flatten();
+        let points = corners(&geometry, &geometry.positions).map(|p| scene.placement.in_file(p));
+        points.collect::<Vec<_>>()
+    };
+    let places = moved(&scene).into_iter().zip(moved(&back));
+    // Micrometres; single precision would have half a metre.
+    assert!(places.into_iter().all(|(a, b)| a.distance(b) < 4e-6));
+    let eyes = [&scene, &back].map(|s| s.placement.in_file(s.cameras[0].position));
+    assert!(eyes[0].distance(eyes[1]) < 4e-6, "{eyes:?}");
+    assert!(back.placement.origin.length() > 4e6, "{:?}", back.placement);
 }
 
 #[test]

@@ -108,12 +108,16 @@ impl<'g> Tracer<'g> {
         self.geometry
     }
 
-    /// The first thing that `ray` meets at a positive distance. Of triangles at the very same
-    /// distance it is the one with the lowest number.
+    /// The first thing that a camera's `ray` meets at a positive distance. Of triangles at the very same
+    /// distance it is the one with the lowest number. Where the geometry is
+    /// [single-sided](Geometry::single_sided), triangles that turn their back are not met.
     #[must_use]
     pub fn trace(&self, ray: &Ray) -> Hit {
         let span = Span { near: 0.0, far: f64::INFINITY };
-        match self.tree.nearest(ray, span, |triangle, met| !self.is_cut(triangle, met)) {
+        let is_there = |triangle: u32, met: &Meeting| {
+            !self.is_cut(triangle, met) && !self.geometry.is_seen_through(triangle as usize, ray.direction)
+        };
+        match self.tree.nearest(ray, span, is_there) {
             Some((triangle, met)) => self.hit(ray, triangle, &met),
             None => Hit::MISS,
         }

@@ -128,6 +128,7 @@ pub(super) fn scene(request: &Request) -> Result<SceneFacts> {
                 Projection::Orthographic { height } => LensFacts::Height(height),
             },
         },
+        origin: request.geometry.placement.origin.to_array(),
         bounds: BoundsFacts { min: bounds.min.to_array(), max: bounds.max.to_array() },
     })
 }

@@ -4,6 +4,23 @@ use super::table::family;
 use super::text::{bytes, count, escape, label, list, percent, seconds, significant};
 use crate::results::{LensFacts, LightFacts, Results, TechniqueResult};
 
+fn lens(lens: LensFacts) -> String {
+    match lens {
+        LensFacts::FovYDeg(degrees) => format!("vertical field of view {degrees:.1}°"),
+        LensFacts::Height(height) => format!("orthographic, picture {height} high"),
+    }
+}
+
+/// What coordinates are relative to, if that is not the file's origin.
+fn relative(origin: [f64; 3]) -> String {
+    let [x, y, z] = origin;
+    if origin == [0.0; 3] {
+        String::new()
+    } else {
+        format!(", relative to ({x}, {y}, {z}) in the file, as all coordinates here")
+    }
+}
+
 fn vector([x, y, z]: [f32; 3]) -> String {
     let short = |v: f32| significant(f64::from(v)).trim_end_matches('0').trim_end_matches('.').to_owned();
     let short = |v: f32| {
@@ -74,13 +91,13 @@ pub(super) fn truth(results: &Results) -> String {
                 vector(camera.position),
                 vector(camera.target),
                 vector(camera.up),
-                match camera.lens {
-                    LensFacts::FovYDeg(degrees) => format!("vertical field of view {degrees:.1}°"),
-                    LensFacts::Height(height) => format!("orthographic, picture {height} high"),
-                }
+                lens(camera.lens)
             ),
         ),
-        ("Scene bounds", format!("{} to {}", vector(bounds.min), vector(bounds.max))),
+        (
+            "Scene bounds",
+            format!("{} to {}{}", vector(bounds.min), vector(bounds.max), relative(results.scene.origin)),
+        ),
         (
             "Shadowable pixels",
             format!("{} see geometry that faces the light", count(truth.shadowable_pixels)),

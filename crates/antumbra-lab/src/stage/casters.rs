@@ -33,7 +33,7 @@ impl Casters {
         let (positions, indices) = (&stage.positions, &stage.indices);
         let mesh = CasterMesh::in_parts(&gpu.device, positions, indices, &stage.parts, Mat4::IDENTITY)?;
         // Large scenes have more attributes than a binding holds, and most of them no cut-outs.
-        if !stage.groups.iter().any(|group| group.2) {
+        if !stage.groups.iter().any(|(group, _)| group.masked) {
             return Ok(Self::Triangles { mesh, cutout: None });
         }
         let layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {

@@ -5,16 +5,51 @@ use crate::{gpu::Gpu, shaders};
 use antumbra::Capabilities;
 use wgpu::{BindGroupLayout, RenderPipeline, TextureFormat, VertexFormat};
 
-/// Pipelines for casters and for what the camera sees. Nothing is culled anywhere, as for rays.
+/// Pipelines for casters and for what the camera sees. No caster is culled, as for rays.
 #[derive(Debug)]
 pub(super) struct Pipelines {
     pub(super) uniform: BindGroupLayout,
     pub(super) caster: RenderPipeline,
     pub(super) masked_caster: RenderPipeline,
-    pub(super) surface: RenderPipeline,
-    pub(super) masked_surface: RenderPipeline,
-    pub(super) number: RenderPipeline,
-    pub(super) masked_number: RenderPipeline,
+    /// For triangles that a camera sees from both sides.
+    seen: Seen,
+    /// For those that it sees from their front, if there are any.
+    culled: Option<Seen>,
+}
+
+/// Pipelines for what the camera sees.
+#[derive(Debug)]
+struct Seen {
+    surface: RenderPipeline,
+    masked_surface: RenderPipeline,
+    number: RenderPipeline,
+    masked_number: RenderPipeline,
+}
+
+/// What one draw of the camera's pass shows.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Group {
+    /// Index into the geometry's materials.
+    pub(super) material: usize,
+    pub(super) masked: bool,
+    /// Whether only fronts are seen.
+    pub(super) culled: bool,
+}
+
+impl Pipelines {
+    fn seen(&self, group: Group) -> &Seen {
+        self.culled.as_ref().filter(|_| group.culled).unwrap_or(&self.seen)
+    }
+
+    pub(super) fn surface(&self, group: Group) -> &RenderPipeline {
+        let seen = self.seen(group);
+        if group.masked { &seen.masked_surface } else { &seen.surface }
+    }
+
+    pub(super) fn number(&self, group: Group) -> &RenderPipeline {
+        let seen = self.seen(group);
+        if group.masked { &seen.masked_number } else { &seen.number }
+    }
 }
 
 /// What differs between the pipelines.
@@ -28,10 +63,12 @@ struct Recipe<'a> {
     formats: &'a [TextureFormat],
     compare: wgpu::CompareFunction,
     unclipped_depth: bool,
+    cull_mode: Option<wgpu::Face>,
 }
 
 impl Pipelines {
-    pub(super) fn new(gpu: &Gpu, material: &BindGroupLayout) -> Self {
+    /// `culls` asks for pipelines that show fronts alone.
+    pub(super) fn new(gpu: &Gpu, material: &BindGroupLayout, culls: bool) -> Self {
         let uniform = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("uniform"),
             entries: &[uniform_entry(0, Offset::Dynamic)],
@@ -56,8 +93,9 @@ impl Pipelines {
             formats: &[],
             compare: wgpu::CompareFunction::Less,
             unclipped_depth: clamps,
+            cull_mode: None,
         };
-        let see = |fragment, formats| Recipe {
+        let see = |fragment, formats, cull_mode| Recipe {
             layout: &full,
             vertex_buffers: 2,
             module: &stage,
@@ -66,17 +104,22 @@ impl Pipelines {
             formats,
             compare: wgpu::CompareFunction::Greater,
             unclipped_depth: false,
+            cull_mode,
         };
         let [plain, masked] =
             if clamps { ["clamped", "masked_clamped"] } else { ["pancaked", "masked_pancaked"] };
         let make = |recipe: Recipe<'_>| pipeline(gpu, &recipe);
+        let seen = |cull| Seen {
+            surface: make(see("surface", &surfaces::FORMATS, cull)),
+            masked_surface: make(see("masked_surface", &surfaces::FORMATS, cull)),
+            number: make(see("number", &[TextureFormat::R32Uint], cull)),
+            masked_number: make(see("masked_number", &[TextureFormat::R32Uint], cull)),
+        };
         Self {
             caster: make(cast(plain, None)),
             masked_caster: make(cast(masked, Some("cutout"))),
-            surface: make(see("surface", &surfaces::FORMATS)),
-            masked_surface: make(see("masked_surface", &surfaces::FORMATS)),
-            number: make(see("number", &[TextureFormat::R32Uint])),
-            masked_number: make(see("masked_number", &[TextureFormat::R32Uint])),
+            seen: seen(None),
+            culled: culls.then(|| seen(Some(wgpu::Face::Back))),
             uniform,
         }
     }
@@ -109,7 +152,11 @@ fn pipeline(gpu: &Gpu, recipe: &Recipe<'_>) -> RenderPipeline {
             compilation_options: Default::default(),
             buffers: &buffers[..recipe.vertex_buffers],
         },
-        primitive: wgpu::PrimitiveState { unclipped_depth: recipe.unclipped_depth, ..Default::default() },
+        primitive: wgpu::PrimitiveState {
+            unclipped_depth: recipe.unclipped_depth,
+            cull_mode: recipe.cull_mode,
+            ..Default::default()
+        },
         depth_stencil: Some(wgpu::DepthStencilState {
             format: antumbra::DEPTH_FORMAT,
             depth_write_enabled: Some(true),

@@ -34,9 +34,20 @@ pub(crate) struct Shot {
 impl Shot {
     /// The scene's own camera and light.
     pub(crate) fn new(gpu: &antumbra_testing::Gpu, scene: &Scene, resolution: [u32; 2]) -> Self {
+        Self::with(gpu, scene, resolution, |_| ())
+    }
+
+    /// The same of a geometry that is changed before.
+    pub(crate) fn with(
+        gpu: &antumbra_testing::Gpu,
+        scene: &Scene,
+        resolution: [u32; 2],
+        change: impl FnOnce(&mut Geometry),
+    ) -> Self {
         scene.validate().unwrap();
         let gpu = Gpu::adopt(gpu.device.clone(), gpu.queue.clone(), gpu.info.clone());
-        let (geometry, camera, light) = (scene.flatten(), scene.main_camera(), scene.main_light());
+        let (mut geometry, camera, light) = (scene.flatten(), scene.main_camera(), scene.main_light());
+        change(&mut geometry);
         let stage = Stage::new(&gpu, &geometry, &camera, &light, resolution).unwrap();
         let lighting = Lighting::new(&gpu, &stage);
         let capacity = stage.capacity();

@@ -37,7 +37,7 @@ pub fn load_with(path: impl AsRef<Path>, options: &Options) -> Result<Scene, Imp
     match extension.as_str() {
         "gltf" | "glb" => gltf_with(path, options),
         "obj" => match options.refuse_gltf_choices("OBJ") {
-            Ok(()) => obj(path),
+            Ok(()) => obj_with(path, options),
             Err(problem) => Err(ImportError::new(path, problem)),
         },
         _ => Err(ImportError::new(path, Problem::Format { extension })),
@@ -93,13 +93,35 @@ pub fn gltf_bytes_with(bytes: &[u8], name: &str, options: &Options) -> Result<Sc
     gltf::import(bytes, None, name, options).map_err(|problem| ImportError::new(name.as_ref(), problem))
 }
 
-/// Loads a Wavefront OBJ file with its MTL libraries: polygons (split into triangles), normals,
-/// texture coordinates, vertex colours, diffuse colours and maps. A dissolve map (`map_d`) makes a
-/// material a cut-out at 0.5; dissolve factors are ignored. Missing normals become flat ones.
+/// Loads a Wavefront OBJ file with its MTL libraries: polygons, concave ones too, split into triangles;
+/// normals, texture coordinates, vertex colours, diffuse colours, maps with their options (`-s`, `-o`,
+/// `-clamp`, `-imfchan`). Text may be UTF-8 or UTF-16, with or without a byte order mark. Positions are read
+/// in double precision. Missing normals become flat ones.
+///
+/// A dissolve map (`map_d`) or else holes in the alpha of the diffuse map make a material a cut-out at ½.
+/// Without them a material that lets half of the light or more through (`d`, `Tr`) is left out, unless
+/// [`Blend`] says otherwise.
+///
+/// Changed or left out, with a line in [`Scene::notes`] for each kind: points, lines and curved surfaces,
+/// unknown statements, numbers that are none, libraries and images that cannot be read (a surface whose mask
+/// is missing is solid), displacement maps.
 ///
 /// # Errors
 /// See [`ImportError`].
 pub fn obj(path: impl AsRef<Path>) -> Result<Scene, ImportError> {
-    let path = path.as_ref();
-    obj::import(path).map_err(|problem| ImportError::new(path, problem))
+    obj_with(path.as_ref(), &Options::default())
+}
+
+fn obj_with(path: &Path, options: &Options) -> Result<Scene, ImportError> {
+    obj::import(path, options.blend).map_err(|problem| ImportError::new(path, problem))
+}
+
+/// Like [`obj`] for a file in memory; `others` are the libraries and images that it may refer to, with the
+/// names that they have there.
+///
+/// # Errors
+/// See [`ImportError`]; messages name the file `name`.
+pub fn obj_bytes(bytes: &[u8], others: &[(&str, &[u8])], name: &str) -> Result<Scene, ImportError> {
+    obj::import_bytes(bytes, others, name, Blend::default())
+        .map_err(|problem| ImportError::new(name.as_ref(), problem))
 }

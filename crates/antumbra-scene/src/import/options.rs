@@ -19,8 +19,8 @@ pub struct Options {
     pub blend: Blend,
 }
 
-/// What becomes of glTF surfaces that let light through: those whose `alphaMode` is `BLEND`, and
-/// those that transmit (`KHR_materials_transmission`). A shadow map holds one depth a texel, so a
+/// What becomes of surfaces that let light through: in glTF those whose `alphaMode` is `BLEND`, and
+/// those that transmit (`KHR_materials_transmission`), in OBJ those that dissolve (`d`, `Tr`). A shadow map holds one depth a texel, so a
 /// point of a surface is there or is not.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Blend {

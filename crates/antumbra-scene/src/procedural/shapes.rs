@@ -34,7 +34,7 @@ impl Builder {
     }
 
     pub(super) fn place(&mut self, mesh: usize, world_from_mesh: Mat4) {
-        self.scene.instances.push(Instance { mesh, world_from_mesh });
+        self.scene.instances.push(Instance::new(mesh, world_from_mesh.as_dmat4()));
     }
 
     /// Places every mesh of a [`Model`](super::model::Model).

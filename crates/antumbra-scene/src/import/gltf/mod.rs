@@ -10,6 +10,7 @@ mod extensions;
 mod hierarchy;
 mod material;
 mod meshopt;
+mod origin;
 mod primitive;
 mod selection;
 mod skin;
@@ -21,11 +22,11 @@ mod views;
 use super::error::{Problem, invalid};
 use super::notes::Notes;
 use super::options::Options;
-use crate::{Instance, Scene, SceneError};
+use crate::{Instance, Node, Placement, Scene, SceneError};
 use accessor::{Asset, follow};
 use document::{Document, Instancing, PunctualLight};
 pub(super) use extensions::READ as EXTENSIONS;
-use glam::{DMat4, DQuat, DVec3, Mat4};
+use glam::{DMat4, DQuat, DVec3};
 use hierarchy::Hierarchy;
 use material::{Source, Surfaces};
 use selection::Shown;
@@ -50,10 +51,11 @@ pub(super) fn import(
     asset.decompress()?;
     asset.animate(options, &mut notes)?;
     let shown = asset.scene(options.scene.as_deref(), &mut notes)?;
-    let hierarchy = asset.hierarchy(shown, &mut notes)?;
+    let mut hierarchy = asset.hierarchy(shown, &mut notes)?;
+    let placement = Placement { origin: asset.settle(&mut hierarchy), ..Placement::default() };
     let source = Source { asset: &asset, folder, blend: options.blend };
     let surfaces = Surfaces::read(&source, &mut notes)?;
-    let mut scene = Scene { name: name.into(), ..Scene::default() };
+    let mut scene = Scene { name: name.into(), placement, nodes: asset.nodes(), ..Scene::default() };
     let lights = asset.number_views(&mut scene)?;
     let mut placer = Placer {
         asset: &asset,
@@ -74,7 +76,8 @@ pub(super) fn import(
     {
         placer.library()?;
     }
-    let scene = placer.finish(options);
+    let mut scene = placer.finish(options);
+    scene.note_placement();
     match scene.validate() {
         Ok(()) => Ok(scene),
         Err(source @ SceneError::NoTriangles { .. }) if !scene.notes.is_empty() => {
@@ -115,7 +118,7 @@ impl Placer<'_> {
         follow(&asset.document.meshes, "meshes", mesh, &format!("{element}.mesh"))?;
         if let Some(skin) = node.skin {
             let matrices = asset.joint_matrices(skin, &self.hierarchy)?;
-            return self.skinned(mesh, node.weights.as_deref(), &matrices, world);
+            return self.skinned(index, &matrices);
         }
         let meshes = match (&node.weights, self.placed.get(&mesh)) {
             (None, Some(meshes)) => meshes.clone(),
@@ -130,7 +133,7 @@ impl Placer<'_> {
         };
         let copies = instances(asset, index, &element)?;
         for copy in copies {
-            self.place(&meshes, world * copy);
+            self.place(&meshes, Some(index), world * copy);
         }
         Ok(())
     }
@@ -139,27 +142,27 @@ impl Placer<'_> {
     fn library(&mut self) -> Result<(), Problem> {
         for mesh in 0..self.asset.document.meshes.len() {
             let added: Vec<usize> = self.mesh(mesh, None, None)?.into_iter().map(|(mesh, _)| mesh).collect();
-            self.place(&added, DMat4::IDENTITY);
+            self.place(&added, None, DMat4::IDENTITY);
         }
         self.notes.say("the file has no nodes; every mesh is placed once, untransformed");
         Ok(())
     }
 
-    fn place(&mut self, meshes: &[usize], world: DMat4) {
-        let world_from_mesh: Mat4 = world.as_mat4();
-        self.scene.instances.extend(meshes.iter().map(|&mesh| Instance { mesh, world_from_mesh }));
+    fn place(&mut self, meshes: &[usize], node: Option<usize>, world: DMat4) {
+        // Near the file's origin a scene stands where a renderer's single precision has it.
+        let is_near = self.scene.placement == Placement::default();
+        let world_from_mesh = if is_near { world.as_mat4().as_dmat4() } else { world };
+        let instance = |&mesh: &usize| Instance { mesh, node, world_from_mesh };
+        self.scene.instances.extend(meshes.iter().map(instance));
     }
 
-    /// Adds a mesh posed by its joints; parts without joints stand where their node does.
-    fn skinned(
-        &mut self,
-        mesh: usize,
-        weights: Option<&[f32]>,
-        matrices: &[DMat4],
-        world: DMat4,
-    ) -> Result<(), Problem> {
-        for (mesh, posed) in self.mesh(mesh, weights, Some(matrices))? {
-            self.place(&[mesh], if posed { DMat4::IDENTITY } else { world });
+    /// Adds the mesh of a node posed by its joints; parts without joints stand where the node does.
+    fn skinned(&mut self, index: usize, matrices: &[DMat4]) -> Result<(), Problem> {
+        let node = &self.asset.document.nodes[index];
+        let Some(mesh) = node.mesh else { return Ok(()) };
+        for (mesh, posed) in self.mesh(mesh, node.weights.as_deref(), Some(matrices))? {
+            let world = if posed { DMat4::IDENTITY } else { self.hierarchy.world_from_node[index] };
+            self.place(&[mesh], Some(index), world);
         }
         Ok(())
     }
@@ -210,6 +213,19 @@ impl Placer<'_> {
         blend::settle(&mut scene, &surfaces.passing, options.blend, &mut notes);
         scene.notes = notes.sentences();
         scene
+    }
+}
+
+impl Asset {
+    /// The names of all nodes, and what they hang on.
+    fn nodes(&self) -> Vec<Node> {
+        let named =
+            |node: &document::Node| Node { name: node.name.clone().unwrap_or_default(), parent: None };
+        let mut nodes: Vec<Node> = self.document.nodes.iter().map(named).collect();
+        for (parent, node) in self.document.nodes.iter().enumerate() {
+            node.children.iter().for_each(|&child| nodes[child].parent = Some(parent));
+        }
+        nodes
     }
 }
 

@@ -1,215 +1,169 @@
-//! Wavefront OBJ: polygons by line, with one mesh for each object and material.
+//! Wavefront OBJ: polygons by line, with one mesh for each group and material.
 
+mod files;
+mod library;
+mod map;
 mod material;
+mod parser;
+mod polygon;
+#[cfg(test)]
+mod tests;
 
-use super::error::{Problem, invalid};
+use super::error::Problem;
+use super::notes::Notes;
 use super::vertices::Vertices;
-use crate::{Instance, Material, Scene};
-use glam::{Mat4, Vec2, Vec3};
+use crate::bulk;
+use crate::import::options::Blend;
+use crate::{Instance, Node, Placement, Scene, SceneError};
+use files::Files;
+use glam::{DMat4, DVec3, Vec2, Vec3, Vec4};
+use material::Materials;
+use parser::{NONE, Parser, Part};
+use polygon::{Cutter, Filled};
+use rustc_hash::FxHashMap;
 use std::collections::HashMap;
 use std::fs;
 use std::path::Path;
 
 /// Imports a file with its material libraries and images.
-pub(super) fn import(path: &Path) -> Result<Scene, Problem> {
+pub(super) fn import(path: &Path, blend: Blend) -> Result<Scene, Problem> {
     let bytes = fs::read(path).map_err(Problem::Read)?;
     let name = path.file_stem().unwrap_or_default().to_string_lossy();
-    read(&String::from_utf8_lossy(&bytes), path.parent().unwrap_or(Path::new("")), &name)
+    let files = Files::Folder(path.parent().unwrap_or(Path::new("")).to_path_buf());
+    read(&files::text(&bytes), &files, &name, blend)
 }
 
-fn read(text: &str, folder: &Path, name: &str) -> Result<Scene, Problem> {
-    let mut parser = Parser::default();
-    let whole = text.replace("\\\r\n", " ").replace("\\\n", " ");
-    for (number, line) in (1..).zip(whole.lines()) {
-        parser.line(line.split('#').next().unwrap_or_default().trim(), number)?;
-    }
-    let mut scene = Scene { name: name.into(), ..Scene::default() };
-    for library in &parser.libraries {
-        material::read(&mut scene, library, folder)?;
-    }
-    let plain = scene.materials.len();
-    scene.materials.push(Material::default());
-    for part in parser.parts {
-        if part.vertices.triangles.is_empty() {
+/// Imports a file from its bytes, with the names and contents of the others that it may name.
+pub(super) fn import_bytes(
+    bytes: &[u8],
+    others: &[(&str, &[u8])],
+    name: &str,
+    blend: Blend,
+) -> Result<Scene, Problem> {
+    read(&files::text(bytes), &Files::Memory(others), name, blend)
+}
+
+fn read(text: &str, files: &Files, name: &str, blend: Blend) -> Result<Scene, Problem> {
+    let mut parser = Parser::read(text)?;
+    let origin = bulk::origin(&parser.positions);
+    let mut scene = Scene {
+        name: name.into(),
+        placement: Placement { origin, ..Placement::default() },
+        ..Scene::default()
+    };
+    let mut notes = Notes::default();
+    let mut materials = Materials::read(&parser.libraries, files, blend, &mut notes);
+    let mut nodes = Nodes::default();
+    let mut builder = Builder { origin, cutter: Cutter::default(), crossed: 0 };
+    for part in std::mem::take(&mut parser.parts) {
+        if part.faces.is_empty() {
             continue;
         }
-        let material = scene.materials[..plain].iter().position(|m| m.name == part.material);
-        let mut vertices = part.vertices;
-        if part.lacks_normals {
-            vertices.normals.clear();
+        let material = materials.number(&part.material, &mut notes);
+        let mut mesh = builder.vertices(&parser, &part).into_mesh(part.name(), material);
+        materials.place(&mut mesh.uvs, material);
+        scene.meshes.push(mesh);
+        if !materials.is_left_out(material) {
+            let (mesh, node) = (scene.meshes.len() - 1, nodes.of(&part));
+            scene.instances.push(Instance { mesh, node, world_from_mesh: DMat4::IDENTITY });
         }
-        scene.meshes.push(vertices.into_mesh(&part.object, material.unwrap_or(plain)));
-        scene.instances.push(Instance { mesh: scene.meshes.len() - 1, world_from_mesh: Mat4::IDENTITY });
     }
-    scene.validate()?;
-    Ok(scene)
+    scene.nodes = nodes.list;
+    (scene.materials, scene.images) = materials.finish();
+    if builder.crossed > 0 {
+        notes.say(format!("{} faces have no area or an outline that crosses itself", builder.crossed));
+    }
+    scene.notes = parser.notes().chain(notes.sentences()).collect();
+    scene.note_placement();
+    match scene.validate() {
+        Ok(()) => Ok(scene),
+        Err(source @ SceneError::NoTriangles { .. }) if !scene.notes.is_empty() => {
+            Err(Problem::NothingLeft { source, notes: scene.notes.join("; ") })
+        }
+        Err(problem) => Err(problem.into()),
+    }
 }
 
-/// The faces of one object in one material.
+impl Part {
+    /// What the part is called in messages.
+    fn name(&self) -> &str {
+        if self.group.is_empty() { &self.object } else { &self.group }
+    }
+}
+
+/// Objects, and the groups below them.
 #[derive(Debug, Default)]
-struct Part {
-    object: String,
-    material: String,
-    vertices: Vertices,
-    /// Vertices by their position, texture coordinate and normal numbers.
-    seen: HashMap<[Option<usize>; 3], u32>,
-    lacks_normals: bool,
+struct Nodes {
+    list: Vec<Node>,
+    places: HashMap<(Option<usize>, String), usize>,
 }
 
-#[derive(Debug, Default)]
-struct Parser {
-    positions: Vec<Vec3>,
-    colors: Vec<Vec3>,
-    uvs: Vec<Vec2>,
-    normals: Vec<Vec3>,
-    libraries: Vec<String>,
-    object: String,
-    material: String,
-    parts: Vec<Part>,
-    places: HashMap<(String, String), usize>,
+impl Nodes {
+    /// The group or object of a part, if it has one with a name.
+    fn of(&mut self, part: &Part) -> Option<usize> {
+        let object = self.place(None, &part.object);
+        self.place(object, &part.group).or(object)
+    }
+
+    fn place(&mut self, parent: Option<usize>, name: &str) -> Option<usize> {
+        if name.is_empty() {
+            return None;
+        }
+        let next = self.list.len();
+        let place = *self.places.entry((parent, name.to_owned())).or_insert(next);
+        if place == next {
+            self.list.push(Node { name: name.to_owned(), parent });
+        }
+        Some(place)
+    }
 }
 
-impl Parser {
-    fn line(&mut self, line: &str, number: usize) -> Result<(), Problem> {
-        let (keyword, rest) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
-        let rest = rest.trim();
-        let vector = || numbers(rest, number, keyword);
-        match keyword {
-            "v" => {
-                let v = vector()?;
-                self.positions.push(first(&v, number, keyword)?);
-                // Six or more numbers: a colour follows the position.
-                self.colors.push(if v.len() >= 6 { Vec3::new(v[3], v[4], v[5]) } else { Vec3::ONE });
+/// Makes meshes of parts.
+struct Builder {
+    origin: DVec3,
+    cutter: Cutter,
+    /// Faces that are no simple polygons.
+    crossed: usize,
+}
+
+impl Builder {
+    /// The vertices of a part, each once if they have normals, else each corner's own.
+    fn vertices(&mut self, parser: &Parser, part: &Part) -> Vertices {
+        let mut vertices = Vertices::default();
+        let mut seen: FxHashMap<[u32; 3], u32> = FxHashMap::default();
+        let (mut begin, mut outline, mut numbers) = (0, Vec::new(), Vec::new());
+        for &count in &part.faces {
+            let corners = &part.corners[begin..begin + count as usize];
+            begin += count as usize;
+            numbers.clear();
+            for corner in corners {
+                let next = vertices.positions.len() as u32;
+                let number = if part.lacks_normals { next } else { *seen.entry(*corner).or_insert(next) };
+                if number == next {
+                    self.push(&mut vertices, parser, part, *corner);
+                }
+                numbers.push(number);
             }
-            "vn" => self.normals.push(first(&vector()?, number, keyword)?),
-            "vt" => {
-                let v = vector()?;
-                // OBJ puts v = 0 at the bottom of the image, scenes at the top.
-                let [u, v] = [0, 1].map(|k| v.get(k).copied().unwrap_or(0.0));
-                self.uvs.push(Vec2::new(u, 1.0 - v));
-            }
-            "f" => self.face(rest, number)?,
-            "o" | "g" => self.object = rest.into(),
-            "usemtl" => self.material = rest.into(),
-            "mtllib" => self.libraries.push(rest.into()),
-            _ => {} // Points, lines, curves, smoothing groups.
+            outline.clear();
+            outline.extend(corners.iter().map(|[position, ..]| self.place(parser, *position)));
+            let (triangles, filled) = self.cutter.cut(&outline);
+            vertices.triangles.extend(triangles.iter().map(|&i| numbers[i as usize]));
+            self.crossed += usize::from(filled == Filled::Crossed);
         }
-        Ok(())
+        vertices
     }
 
-    /// Splits a polygon into a fan of triangles.
-    fn face(&mut self, corners: &str, line: usize) -> Result<(), Problem> {
-        let key = (self.object.clone(), self.material.clone());
-        let place = *self.places.entry(key).or_insert_with_key(|(object, material)| {
-            self.parts.push(Part { object: object.clone(), material: material.clone(), ..Part::default() });
-            self.parts.len() - 1
-        });
-        let mut fan = Vec::new();
-        for corner in corners.split_whitespace() {
-            fan.push(self.corner(corner, line, place)?);
+    fn place(&self, parser: &Parser, position: u32) -> DVec3 {
+        parser.positions[position as usize] - self.origin
+    }
+
+    fn push(&self, vertices: &mut Vertices, parser: &Parser, part: &Part, [position, uv, normal]: [u32; 3]) {
+        vertices.positions.push(self.place(parser, position).as_vec3());
+        let color = parser.colors.get(position as usize);
+        vertices.colors.push(color.map_or(Vec4::ONE, |color: &Vec3| color.extend(1.0)));
+        vertices.uvs.push(if uv == NONE { Vec2::ZERO } else { parser.uvs[uv as usize] });
+        if !part.lacks_normals {
+            vertices.normals.push(parser.normals[normal as usize]);
         }
-        let triangles = fan.windows(2).skip(1).flat_map(|w| [fan[0], w[0], w[1]]);
-        self.parts[place].vertices.triangles.extend(triangles);
-        Ok(())
-    }
-
-    /// The vertex number of a corner such as `3/1/2`, `3//2`, `3/1` or `-1`.
-    fn corner(&mut self, corner: &str, line: usize, place: usize) -> Result<u32, Problem> {
-        let counts = [self.positions.len(), self.uvs.len(), self.normals.len()];
-        let mut numbers = [None; 3];
-        for (k, text) in corner.split('/').enumerate().filter(|(_, text)| !text.is_empty()) {
-            let count = counts.get(k).copied().unwrap_or(0);
-            let place = text.parse::<i64>().ok().and_then(|number| match number {
-                1.. => usize::try_from(number - 1).ok(),
-                0 => None,
-                _ => count.checked_sub(usize::try_from(number.unsigned_abs()).ok()?),
-            });
-            if place.is_none_or(|place| place >= count) {
-                let allowed = format!("allowed here are 1 to {count} and -1 to -{count}");
-                return Err(invalid(
-                    format!("line {line}: '{text}' of corner {corner}"),
-                    "no vertex",
-                    allowed,
-                ));
-            }
-            numbers[k] = place;
-        }
-        let [Some(position), uv, normal] = numbers else {
-            let allowed = "it must begin with the number of a position";
-            return Err(invalid(format!("line {line}: corner"), format!("'{corner}'"), allowed));
-        };
-        let part = &mut self.parts[place];
-        if let Some(&known) = part.seen.get(&numbers) {
-            return Ok(known);
-        }
-        let vertices = &mut part.vertices;
-        let index = vertices.positions.len() as u32;
-        vertices.positions.push(self.positions[position]);
-        vertices.colors.push(self.colors[position].extend(1.0));
-        vertices.uvs.push(uv.map_or(Vec2::ZERO, |i| self.uvs[i]));
-        vertices.normals.push(normal.map_or(Vec3::ZERO, |i| self.normals[i]));
-        part.lacks_normals |= normal.is_none();
-        part.seen.insert(numbers, index);
-        Ok(index)
-    }
-}
-
-/// The finite numbers of a line.
-fn numbers(text: &str, line: usize, keyword: &str) -> Result<Vec<f32>, Problem> {
-    let read = |word: &str| {
-        word.parse().ok().filter(|x: &f32| x.is_finite()).ok_or_else(|| {
-            invalid(format!("line {line}: number of '{keyword}'"), format!("'{word}'"), "it must be finite")
-        })
-    };
-    text.split_whitespace().map(read).collect()
-}
-
-/// The first three numbers of a line.
-fn first(numbers: &[f32], line: usize, keyword: &str) -> Result<Vec3, Problem> {
-    match *numbers {
-        [x, y, z, ..] => Ok(Vec3::new(x, y, z)),
-        _ => Err(invalid(
-            format!("line {line}: '{keyword}'"),
-            format!("{} numbers long", numbers.len()),
-            "it needs at least 3",
-        )),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn parse(text: &str) -> Result<Scene, Problem> {
-        read(text, Path::new(""), "test")
-    }
-
-    const SQUARE: &str = "v 0 0 0\nv 1 0 0 0.5 0.5 0.5\nv 1 1 0\nv 0 1 0\nvt 0.25 0.25\nvn 0 0 1\n";
-
-    #[test]
-    fn polygons_objects_and_relative_numbers() {
-        let text = format!("{SQUARE}f 1/1/1 2/1/1 3/1/1 4/1/1 # a quad\no other\nf -4 -3 \\\n-2\nl 1 2\n");
-        let scene = parse(&text).unwrap();
-        assert_eq!(scene.meshes.len(), 2);
-        assert_eq!(scene.meshes[0].indices, [0, 1, 2, 0, 2, 3]);
-        assert_eq!(scene.meshes[0].uvs[0], Vec2::new(0.25, 0.75));
-        assert_eq!(scene.meshes[0].colors[1].x, 0.5);
-        assert_eq!(scene.meshes[1].normals, [Vec3::Z; 3], "flat, as the file has none");
-    }
-
-    #[test]
-    fn bad_lines_are_named() {
-        let refusal = |line: &str| parse(&format!("{SQUARE}{line}\n")).unwrap_err().to_string();
-        assert_eq!(
-            refusal("f 1 2 5"),
-            "line 7: '5' of corner 5 is no vertex; allowed here are 1 to 4 and -1 to -4"
-        );
-        assert!(refusal("f 1 2 9223372036854775807").contains("allowed here are 1 to 4"));
-        assert!(refusal("f 1/2 2 3").contains("allowed here are 1 to 1"));
-        assert!(refusal("f 1 2 -5").contains("'-5' of corner -5"));
-        assert!(refusal("f 1 2 /1").contains("corner is '/1'; it must begin with the number of a position"));
-        assert_eq!(refusal("v 0 nan 0"), "line 7: number of 'v' is 'nan'; it must be finite");
-        assert_eq!(refusal("v 0 1"), "line 7: 'v' is 2 numbers long; it needs at least 3");
-        assert!(refusal("f 1 2").contains("no triangles"));
     }
 }
