@@ -33,10 +33,10 @@ clippy:
 doc:
 	$(CARGO) doc --release --workspace --no-deps
 
-# The library must build for browsers; skipped, and said so, where the target is not installed.
+# The library, and its page, must build for browsers; skipped, and said so, where the target is not installed.
 check-wasm:
 	@if rustc --print target-libdir --target wasm32-unknown-unknown 2>/dev/null | xargs test -d; then \
-		$(CARGO) check --release -p antumbra --target wasm32-unknown-unknown; \
+		$(CARGO) check --release -p antumbra --lib --example browser --target wasm32-unknown-unknown; \
 	else \
 		echo "wasm32-unknown-unknown is not installed: browser build not checked (rustup target add wasm32-unknown-unknown)"; \
 	fi

@@ -42,7 +42,7 @@ impl Cascades {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stage {
     /// The camera: world to clip space, z in `[0,1]`. It may be perspective or orthographic, off-centre, its
-    /// depth reversed or infinite.
+    /// depth reversed or infinite. Shadows reach as far as it sees: give it a finite far plane for a distance.
     pub camera: Mat4,
     /// Everything in the scene: casters and receivers.
     pub scene: Bounds,

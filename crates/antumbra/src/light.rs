@@ -50,7 +50,7 @@ pub enum Light {
         /// Any length but zero.
         direction: Vec3,
     },
-    /// A cone.
+    /// A cone. Six with an outer angle of 45° along ±x, ±y and ±z make a point light: six views of one map.
     Spot {
         /// Apex.
         position: Vec3,

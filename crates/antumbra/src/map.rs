@@ -302,7 +302,10 @@ impl ShadowMap {
     }
 
     /// Takes the light's views for this frame, nearest first; the first that contains a receiver
-    /// is the one that shades it.
+    /// is the one that shades it. Without any everything is lit.
+    ///
+    /// Writes buffers through the queue: what is submitted next sees what was written last, so two cameras
+    /// or two lights in one submission take two maps.
     ///
     /// # Errors
     /// [`TooManyViews`], and then the previous views stay.
@@ -328,7 +331,8 @@ impl ShadowMap {
 
     /// Draws the casters of every view and filters what they leave. `draw` gets the view, whose
     /// [`clip_from_world`](View::clip_from_world) places the casters, and a pass with a depth
-    /// attachment of [`DEPTH_FORMAT`], cleared to 1, and no colour. A technique that draws them several
+    /// attachment of [`DEPTH_FORMAT`], cleared to 1, and no colour; casters in front of the near plane must be
+    /// clamped (`unclipped_depth`) or moved ([`CASTER_WGSL`](crate::CASTER_WGSL)) onto it. A technique that draws them several
     /// times asks for each of [`caster_views`](Self::caster_views). If the technique's
     /// [`caster`](Technique::caster) is not [`Caster::Depth`], the pass has its pipeline and group 0 set, and
     /// `draw`, which is called once per layer of [`Caster::Triangles`], twice for [`Caster::Lists`], calls
@@ -532,7 +536,11 @@ impl ShadowMap {
         &self.bind_group
     }
 
-    /// `shadow_visibility(position, normal, ddx, ddy) -> f32` with all it needs, bound in `group`.
+    /// `shadow_visibility(position, normal, ddx, ddy) -> f32` with all it needs, bound in `group`: the share of
+    /// the light, 0 to 1, that reaches a position in world space; 1 outside every view. `normal` is that
+    /// of the facet, of unit length, either side, not interpolated or bumped; `ddx` and `ddy` are the change of
+    /// position from this pixel to the next. What has no surface, such as fog, passes the direction
+    /// towards the light, and zeros.
     #[must_use]
     pub fn wgsl(&self, group: u32) -> ShaderText {
         let size = shader::MapSize {

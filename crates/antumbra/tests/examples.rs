@@ -21,6 +21,7 @@ example!(hello, "../examples/hello.rs");
 example!(own_shader, "../examples/own_shader.rs");
 example!(own_depth, "../examples/own_depth.rs");
 example!(triangles, "../examples/triangles.rs");
+example!(cutouts, "../examples/cutouts.rs");
 example!(compute, "../examples/compute.rs");
 example!(skinning, "../examples/skinning.rs");
 
@@ -136,6 +137,17 @@ fn triangles(gpu: &Gpu) {
     assert!(error.contains("pcf keeps depth"), "{error}");
 }
 
+/// Light through the card's holes, and shadows between them, for techniques of all families.
+fn cutouts(gpu: &Gpu) {
+    let sun = Vec3::new(-0.7, 1.0, 0.25);
+    let below = |x, z| on_ground(cutouts::CARD.0 + Vec3::new(x, 0.0, z), sun);
+    for spec in ["hard", "pcf", "vsm", "rgsm", "spsm", "dpm", "exact"] {
+        let picture = cutouts::run(&gpu.device, &gpu.queue, spec).unwrap();
+        let holes = [below(0.5, 0.5), below(1.5, 1.5)];
+        check(&picture, cutouts::camera(), &holes, &[below(1.0, 1.0), below(0.0, 1.0)]);
+    }
+}
+
 /// From above: fog is dark where it is in shadow all the way up, and lit elsewhere.
 fn compute(gpu: &Gpu) {
     let picture = compute::run(&gpu.device, &gpu.queue).unwrap();
@@ -167,6 +179,7 @@ fn main() {
     trials.add("own_shader", own_shader);
     trials.add("own_depth", own_depth);
     trials.add("triangles", triangles);
+    trials.add("cutouts", cutouts);
     trials.add("compute", compute);
     trials.add("skinning", skinning);
     trials.run();

@@ -115,7 +115,8 @@ pub fn pipeline(
     fragment: Option<&str>,
 ) -> RenderPipeline {
     let attributes = wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3];
-    pipeline_of(device, module, groups, [vertex, fragment.unwrap_or_default()], &attributes)
+    let stages = Stages { vertex, fragment, colours: fragment.is_some() };
+    pipeline_of(device, module, groups, stages, &[&attributes])
 }
 
 /// The same for vertices that are positions alone.
@@ -127,17 +128,44 @@ pub fn pipeline_of_positions(
     fragment: Option<&str>,
 ) -> RenderPipeline {
     let attributes = wgpu::vertex_attr_array![0 => Float32x3];
-    pipeline_of(device, module, groups, [vertex, fragment.unwrap_or_default()], &attributes)
+    let stages = Stages { vertex, fragment, colours: fragment.is_some() };
+    pipeline_of(device, module, groups, stages, &[&attributes])
+}
+
+/// The same for positions in one buffer and texture coordinates in another, with a fragment stage that leaves
+/// holes, whether it has a colour or not.
+pub fn pipeline_of_uvs(
+    device: &Device,
+    module: &wgpu::ShaderModule,
+    groups: &[Option<&BindGroupLayout>],
+    fragment: &str,
+    colours: bool,
+) -> RenderPipeline {
+    let positions = wgpu::vertex_attr_array![0 => Float32x3];
+    let uvs = wgpu::vertex_attr_array![1 => Float32x2];
+    let stages = Stages { vertex: "vertex", fragment: Some(fragment), colours };
+    pipeline_of(device, module, groups, stages, &[&positions, &uvs])
+}
+
+/// Entry points, and whether there is a colour to write.
+struct Stages<'a> {
+    vertex: &'a str,
+    fragment: Option<&'a str>,
+    colours: bool,
 }
 
 fn pipeline_of(
     device: &Device,
     module: &wgpu::ShaderModule,
     groups: &[Option<&BindGroupLayout>],
-    [vertex, fragment]: [&str; 2],
-    attributes: &[wgpu::VertexAttribute],
+    stages: Stages<'_>,
+    buffers: &[&[wgpu::VertexAttribute]],
 ) -> RenderPipeline {
-    let fragment = Some(fragment).filter(|entry| !entry.is_empty());
+    let buffers = buffers.iter().map(|attributes| {
+        let array_stride = attributes.iter().map(|attribute| attribute.format.size()).sum();
+        Some(wgpu::VertexBufferLayout { array_stride, step_mode: wgpu::VertexStepMode::Vertex, attributes })
+    });
+    let buffers: Vec<_> = buffers.collect();
     let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
         bind_group_layouts: groups,
         ..Default::default()
@@ -149,18 +177,11 @@ fn pipeline_of(
         layout: Some(&layout),
         vertex: wgpu::VertexState {
             module,
-            entry_point: Some(vertex),
+            entry_point: Some(stages.vertex),
             compilation_options: Default::default(),
-            buffers: &[Some(wgpu::VertexBufferLayout {
-                array_stride: attributes.iter().map(|attribute| attribute.format.size()).sum(),
-                step_mode: wgpu::VertexStepMode::Vertex,
-                attributes,
-            })],
+            buffers: &buffers,
         },
-        primitive: wgpu::PrimitiveState {
-            unclipped_depth: clamps && fragment.is_none(),
-            ..Default::default()
-        },
+        primitive: wgpu::PrimitiveState { unclipped_depth: clamps && !stages.colours, ..Default::default() },
         depth_stencil: Some(wgpu::DepthStencilState {
             format: DEPTH,
             depth_write_enabled: Some(true),
@@ -169,11 +190,11 @@ fn pipeline_of(
             bias: Default::default(),
         }),
         multisample: Default::default(),
-        fragment: fragment.map(|entry| wgpu::FragmentState {
+        fragment: stages.fragment.map(|entry| wgpu::FragmentState {
             module,
             entry_point: Some(entry),
             compilation_options: Default::default(),
-            targets: &targets,
+            targets: if stages.colours { &targets } else { &[] },
         }),
         multiview_mask: None,
         cache: None,
@@ -233,6 +254,71 @@ pub fn compute_pipeline(
         compilation_options: Default::default(),
         cache: None,
     })
+}
+
+/// A square texture with these texels.
+pub fn texture(
+    device: &Device,
+    queue: &Queue,
+    side: u32,
+    format: TextureFormat,
+    bytes: &[u8],
+) -> wgpu::Texture {
+    let descriptor = wgpu::TextureDescriptor {
+        label: None,
+        size: wgpu::Extent3d { width: side, height: side, depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage: TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST,
+        view_formats: &[],
+    };
+    device.create_texture_with_data(queue, &descriptor, wgpu::util::TextureDataOrder::LayerMajor, bytes)
+}
+
+/// A mask, a sampler for it, and the texture coordinates of a mesh's vertices, for fragment shaders.
+pub fn mask_group(device: &Device, mask: &wgpu::Texture, uvs: &wgpu::Buffer) -> (BindGroupLayout, BindGroup) {
+    let texture = wgpu::BindingType::Texture {
+        sample_type: wgpu::TextureSampleType::Float { filterable: true },
+        view_dimension: wgpu::TextureViewDimension::D2,
+        multisampled: false,
+    };
+    let buffer = wgpu::BindingType::Buffer {
+        ty: wgpu::BufferBindingType::Storage { read_only: true },
+        has_dynamic_offset: false,
+        min_binding_size: None,
+    };
+    let sampler = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering);
+    let entries: Vec<_> = (0..)
+        .zip([texture, sampler, buffer])
+        .map(|(binding, ty)| wgpu::BindGroupLayoutEntry {
+            binding,
+            visibility: wgpu::ShaderStages::FRAGMENT,
+            ty,
+            count: None,
+        })
+        .collect();
+    let layout =
+        device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: None, entries: &entries });
+    let view = mask.create_view(&Default::default());
+    let sampler = device.create_sampler(&wgpu::SamplerDescriptor {
+        mag_filter: wgpu::FilterMode::Linear,
+        ..Default::default()
+    });
+    let resources = [
+        wgpu::BindingResource::TextureView(&view),
+        wgpu::BindingResource::Sampler(&sampler),
+        uvs.as_entire_binding(),
+    ];
+    let entries: Vec<_> =
+        (0..).zip(resources).map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource }).collect();
+    let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: None,
+        layout: &layout,
+        entries: &entries,
+    });
+    (layout, group)
 }
 
 pub fn target(device: &Device, width: u32, height: u32, format: TextureFormat) -> wgpu::Texture {
