@@ -158,6 +158,7 @@ fn main() {
     trials.add("csm sums its series", basis::csm_sums_its_series);
     trials.add("raster depth is linearised", receiver::raster_depth_is_linearised);
     trials.add("raster depth is cleaned", receiver::raster_depth_is_cleaned);
+    trials.add("six spots are a point light", receiver::six_spots_are_a_point_light);
     trials.add("receivers are projected", receiver::receivers_are_projected);
     trials.add("receiver planes are solved", receiver::receiver_planes_are_solved);
     trials.add("steeper planes are followed", receiver::steeper_planes_are_followed);

@@ -1,7 +1,8 @@
 //! Depth, projection and gradients of receivers.
 
 use super::{INPUTS, Row, SIZE, compare, compare_from, row, rows, run, shadows};
-use antumbra::{Light, technique};
+use crate::common::{Random, Receiver, caster_mesh, visibility};
+use antumbra::{Capacity, Light, Options, ShadowMap, Size, technique};
 use antumbra_testing::Gpu;
 use glam::{DMat4, DVec3, Vec3};
 
@@ -176,4 +177,54 @@ pub(crate) fn steeper_planes_are_followed(gpu: &Gpu) {
     compare(&rows, &found, followed(1.5)).unwrap();
     compare(&rows, &found, followed(1.45)).unwrap_err();
     compare(&rows, &found, followed(f64::INFINITY)).unwrap_err();
+}
+
+/// Six views of one map, 45° to each side of the axes, leave no gap: a closed box around the light darkens
+/// everything beyond it and nothing within, in whatever direction.
+pub(crate) fn six_spots_are_a_point_light(gpu: &Gpu) {
+    let size = Size::square(64);
+    let capacity = Capacity { triangles: 24, ..Capacity::default() };
+    let options = Options::from(size).views(6).capacity(capacity);
+    let mut shadows = ShadowMap::new(&gpu.device, &technique::Exact::default(), options).unwrap();
+    let bounds = |half: f32| antumbra::Bounds { min: Vec3::splat(-half), max: Vec3::splat(half) };
+    let axes = [Vec3::X, Vec3::Y, Vec3::Z].into_iter().flat_map(|axis| [axis, -axis]);
+    let view = |direction| {
+        let position = Vec3::ZERO;
+        let spot = Light::Spot { position, direction, outer_angle: std::f32::consts::FRAC_PI_4 };
+        let (casters, receivers) = (bounds(1.0), bounds(3.0).corners().collect());
+        spot.view(&antumbra::Fit { casters, receivers, size, margin_texels: shadows.margin_texels() })
+            .unwrap()
+    };
+    let views: Vec<_> = axes.map(view).collect();
+    shadows.prepare(&gpu.queue, &views).unwrap();
+    let side = |n: Vec3| {
+        let s = Vec3::new(n.y, n.z, n.x);
+        let t = n.cross(s);
+        [n + s + t, n - s + t, n - s - t, n + s + t, n - s - t, n + s - t]
+    };
+    let corners: Vec<Vec3> =
+        views.iter().flat_map(|view| side(-view.clip_from_world.row(3).truncate())).collect();
+    let mesh = caster_mesh(gpu, &corners);
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    shadows.encode(&mut encoder, |view, pass| mesh.draw(view, pass)).unwrap();
+    gpu.queue.submit([encoder.finish()]);
+    let mut random = Random::new(31);
+    // Along edges and diagonals of the box, where two and three views meet, and anywhere.
+    let grid = (0..27).map(|i| Vec3::new((i % 3) as f32, (i / 3 % 3) as f32, (i / 9) as f32) - 1.0);
+    let directions: Vec<Vec3> = grid
+        .chain((0..100).map(|_| Vec3::new(random.unit(), random.unit(), random.unit()) - 0.5))
+        .filter_map(Vec3::try_normalize)
+        .collect();
+    for (distance, expected) in [(0.9, 1.0), (2.0, 0.0)] {
+        let receiver = |direction: &Vec3| {
+            let place = *direction * distance;
+            let point = Receiver::point(0.5 + 0.5 * place.x, 0.5 - 0.5 * place.y, place.z);
+            Receiver { normal: -*direction, ..point }
+        };
+        let receivers: Vec<Receiver> = directions.iter().map(receiver).collect();
+        let found = visibility(gpu, &shadows, &receivers);
+        for (direction, found) in directions.iter().zip(found) {
+            assert_eq!(found, expected, "at {distance} along {direction}");
+        }
+    }
 }
