@@ -60,12 +60,14 @@ const COMPARE_EXAMPLES: &str = "Examples:
   antumbra compare model.glb --size 1024 --kernel 7 --techniques hard pcf esm
   antumbra compare model.glb --techniques hard esm.c=40 esm.c=80 csm.terms=4
   antumbra compare model.glb --camera 3,2,5:0,1,0:50 --light 0.3,-1,-0.2
-  antumbra compare model.glb --light spot:0,4,0:0,-1,0:35 --json > results.json";
+  antumbra compare model.glb --light spot:0,4,0:0,-1,0:35 --json > results.json
+  antumbra compare valley.glb --cascades 4 --techniques hard pcf evsm";
 
 const RENDER_EXAMPLES: &str = "Examples:
   antumbra render fence --technique esm.c=60 -o out.png
   antumbra render model.glb --technique pcf.kernel=7 --show visibility -o visibility.exr
   antumbra render fence -t esm.classifier=zmax --show classes -o failed.png
+  antumbra render city -t pcf --cascades 4 --show cascades -o cascades.png
   antumbra render model.glb --technique truth -o truth.png";
 
 const BIAS_EXAMPLES: &str = "Examples:
@@ -112,6 +114,17 @@ pub(crate) struct SceneArguments {
     /// A .glb, .gltf or .obj file, or the name of a built-in scene (see `antumbra scenes`)
     #[arg(default_value = "fence", value_parser = completion::SCENES, hide_possible_values = true)]
     pub(crate) scene: String,
+    #[command(flatten)]
+    pub(crate) view: ViewArguments,
+    /// What keeps surfaces from shadowing themselves: auto, none, or terms such as
+    /// constant_texels=1,receiver_plane=1 (see `antumbra bias --help`)
+    #[arg(long, default_value = "auto", value_name = "BIAS")]
+    pub(crate) bias: String,
+}
+
+/// How a scene is seen and lit, and the maps that shadow it.
+#[derive(Debug, Clone, Args)]
+pub(crate) struct ViewArguments {
     /// Seed of a built-in scene
     #[arg(long, default_value_t = 1)]
     pub(crate) seed: u64,
@@ -137,6 +150,9 @@ pub(crate) struct SceneArguments {
     /// light-space ideal
     #[arg(long, default_value_t = 5, value_name = "TEXELS")]
     pub(crate) kernel: u32,
+    /// Shadow maps of a sun, 1 to 8, each for a range of distances from the camera; spots have one
+    #[arg(long, default_value_t = 1, value_name = "COUNT")]
+    pub(crate) cascades: u32,
     #[command(flatten)]
     pub(crate) file: FileArguments,
 }
@@ -171,9 +187,6 @@ pub(crate) struct Render {
     #[arg(short, long, alias = "techniques", default_value = "esm", value_name = "TECHNIQUE",
         value_parser = completion::TECHNIQUE_OR_TRUTH, hide_possible_values = true)]
     pub(crate) technique: String,
-    /// auto, none, or terms such as constant_texels=1,receiver_plane=1 (see `antumbra bias --help`)
-    #[arg(long, default_value = "auto", value_name = "BIAS")]
-    pub(crate) bias: String,
     /// What to write
     #[arg(long, value_enum, default_value_t = Show::Picture)]
     pub(crate) show: Show,
@@ -191,6 +204,8 @@ pub(crate) enum Show {
     Visibility,
     /// Visibility with the kinds of pixels that the technique tells apart in colour
     Classes,
+    /// The shaded picture in the colours of the cascades that shade it
+    Cascades,
 }
 
 #[derive(Debug, Args)]
@@ -254,6 +269,7 @@ pub(crate) struct Bench {
 }
 
 #[derive(Debug, Args)]
+#[command(mut_arg("resolution", |arg| arg.default_value("640x480")), mut_arg("size", |arg| arg.default_value("1024")))]
 pub(crate) struct Bias {
     /// .glb, .gltf or .obj files, or names of built-in scenes
     #[arg(required = true, value_name = "SCENE", value_parser = completion::SCENES, hide_possible_values = true)]
@@ -265,29 +281,11 @@ pub(crate) struct Bias {
     /// The biases that each of them is given
     #[arg(long, num_args = 1.., default_values = SETTINGS, value_name = "BIAS")]
     pub(crate) settings: Vec<String>,
-    /// Seed of built-in scenes
-    #[arg(long, default_value_t = 1)]
-    pub(crate) seed: u64,
-    /// As for `compare`
-    #[arg(long, allow_hyphen_values = true, value_name = "CAMERA")]
-    pub(crate) camera: Option<String>,
-    /// As for `compare`
-    #[arg(long, allow_hyphen_values = true, value_name = "LIGHT")]
-    pub(crate) light: Option<String>,
-    /// Pixels across and down
-    #[arg(long, default_value = "640x480", value_name = "WxH")]
-    pub(crate) resolution: String,
-    /// Texels along one side of the shadow map
-    #[arg(long, default_value_t = 1024, value_name = "TEXELS")]
-    pub(crate) size: u32,
-    /// Kernel width of every technique that has one (unless its spec sets it)
-    #[arg(long, default_value_t = 5, value_name = "TEXELS")]
-    pub(crate) kernel: u32,
+    #[command(flatten)]
+    pub(crate) view: ViewArguments,
     /// Print the rows as JSON instead of tables
     #[arg(long)]
     pub(crate) json: bool,
-    #[command(flatten)]
-    pub(crate) file: FileArguments,
 }
 
 /// The usual ones.

@@ -1,24 +1,25 @@
 //! From arguments to triangles, a camera and a light.
 
-use crate::{arguments::SceneArguments, file_arguments::FileArguments, views};
-use antumbra_lab::default_view;
+use crate::{
+    arguments::{SceneArguments, ViewArguments},
+    file_arguments::FileArguments,
+    views,
+};
+use antumbra::technique::Bias;
+use antumbra_lab::{default_view, setting::Setting};
 use antumbra_scene::{Camera, Geometry, Light, Projection, Scene, import, procedural};
 use anyhow::{Context, Result, bail};
 use glam::Vec3;
-use std::{io::Write, path::Path};
-
-/// All that is needed to render.
-#[derive(Debug)]
-pub(crate) struct Setting {
-    pub(crate) name: String,
-    pub(crate) geometry: Geometry,
-    pub(crate) camera: Camera,
-    pub(crate) light: Light,
-    pub(crate) resolution: [u32; 2],
-}
+use std::{io::Write, path::Path, sync::Arc};
 
 /// Checks the numbers, which is quick.
 pub(crate) fn check(arguments: &SceneArguments) -> Result<()> {
+    bias(&arguments.bias)?;
+    check_view(&arguments.view)
+}
+
+/// The same where a scene is not given with its bias.
+pub(crate) fn check_view(arguments: &ViewArguments) -> Result<()> {
     resolution(&arguments.resolution)?;
     if arguments.size == 0 {
         bail!("--size 0: a shadow map has at least 1 texel");
@@ -26,14 +27,22 @@ pub(crate) fn check(arguments: &SceneArguments) -> Result<()> {
     if !(1..=31).contains(&arguments.kernel) {
         bail!("--kernel {}: allowed are 1 to 31 texels", arguments.kernel);
     }
+    if !(1..=8).contains(&arguments.cascades) {
+        bail!("--cascades {}: allowed are 1 to 8", arguments.cascades);
+    }
     Ok(())
 }
 
 /// Loads and checks everything before any work is done.
 pub(crate) fn load(arguments: &SceneArguments) -> Result<Setting> {
+    Ok(Setting { bias: bias(&arguments.bias)?, ..load_view(&arguments.scene, &arguments.view)? })
+}
+
+/// The same with [`Bias::Auto`].
+pub(crate) fn load_view(name: &str, arguments: &ViewArguments) -> Result<Setting> {
     let resolution = resolution(&arguments.resolution)?;
-    let scene = open(&arguments.scene, arguments.seed, &arguments.file)?;
-    scene.validate().with_context(|| arguments.scene.clone())?;
+    let scene = open(name, arguments.seed, &arguments.file)?;
+    scene.validate().with_context(|| name.to_string())?;
     let camera = match &arguments.camera {
         None => scene.cameras.first().copied(),
         Some(text) => views::camera(text, &scene).map(Some).with_context(|| format!("--camera {text}"))?,
@@ -44,7 +53,24 @@ pub(crate) fn load(arguments: &SceneArguments) -> Result<Setting> {
     };
     let geometry = scene.flatten();
     let (camera, light) = complete(&scene, &geometry, camera, light)?;
-    Ok(Setting { name: arguments.scene.clone(), geometry, camera, light, resolution })
+    if arguments.cascades > 1 && matches!(light, Light::Spot { .. }) {
+        note(&format!("--cascades {}: a spot has one view; cascades are a sun's", arguments.cascades));
+    }
+    Ok(Setting {
+        name: name.into(),
+        geometry: Arc::new(geometry),
+        camera,
+        light,
+        resolution,
+        map_size: arguments.size,
+        kernel: arguments.kernel,
+        cascades: arguments.cascades,
+        bias: Bias::Auto,
+    })
+}
+
+fn bias(text: &str) -> Result<Bias> {
+    text.parse().with_context(|| format!("--bias {text}"))
 }
 
 /// What neither the file nor the command line says, with a note that tells how to say it.

@@ -127,6 +127,9 @@ fn settings(trials: &mut Trials) {
         (&["--resolution", "640"], &["--resolution 640", "1024x768"]),
         (&["--resolution", "99999x10"], &["--resolution 99999x10", "16384"]),
         (&["--kernel", "0"], &["--kernel 0", "1 to 31"]),
+        (&["--cascades", "0"], &["--cascades 0", "1 to 8"]),
+        (&["--cascades", "9"], &["--cascades 9", "1 to 8"]),
+        (&["--bias", "some"], &["--bias some", "auto, none"]),
         (&["--kernel", "99"], &["--kernel 99", "1 to 31"]),
         (&["--seed", "x"], &["'x'", "--seed"]),
     ];

@@ -10,7 +10,7 @@ use antumbra_lab::report;
 use antumbra_lab::results::{
     AdapterFacts, BoundsFacts, CameraFacts, Family, LensFacts, Lifetime, LightFacts, MemoryItem,
     MemoryResult, PassTime, Program, Results, SCHEMA, SceneFacts, Scores, Spread, TechniqueImages,
-    TechniqueResult, TimeMethod, TimeResult, TruthFacts, TruthImages, Work,
+    TechniqueResult, TimeMethod, TimeResult, TruthFacts, TruthImages, ViewFacts, Work,
 };
 use std::collections::BTreeMap;
 use std::error::Error;
@@ -353,6 +353,9 @@ fn results(truth: &Truth, techniques: Vec<TechniqueResult>) -> Result<Results, B
         resolution: [WIDTH, HEIGHT],
         map_size: 1024,
         kernel_texels: 5,
+        bias: "auto".into(),
+        views: vec![ViewFacts { texel_world: 0.01, depth_world: 10.0 }],
+        cascades: None,
         adapter: AdapterFacts {
             name: "Sample adapter (times are made up)".into(),
             driver: "none".into(),

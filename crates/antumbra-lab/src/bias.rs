@@ -1,16 +1,16 @@
 //! What biases cost and give: acne against detached shadows.
 
 use crate::{
-    compare::{Entered, Progress, enter_biased, ideal_kernel, map_plane},
+    compare::{Progress, ideal_kernel},
     gpu::Gpu,
-    lighting::Lighting,
     metrics::LIT_THRESHOLD,
     plane::Plane,
     results::LeftOut,
-    stage::Stage,
+    setting::{Setting, Setup},
+    views::MapViews,
 };
-use antumbra::{Technique, View, technique, technique::Bias};
-use antumbra_scene::{Camera, Geometry, Light};
+use antumbra::{Technique, technique, technique::Bias};
+use antumbra_scene::Light;
 use antumbra_truth::{CameraRays, Hit, Ray, Tracer, Visibility};
 use anyhow::{Context, Result};
 use glam::DVec3;
@@ -37,20 +37,12 @@ pub const TOLERATED_ACNE: f64 = 0.01;
 /// What to look at.
 #[derive(Debug)]
 pub struct Request<'a> {
-    /// Triangles.
-    pub geometry: &'a Geometry,
-    /// Where they are seen from.
-    pub camera: &'a Camera,
-    /// What they are lit by.
-    pub light: &'a Light,
+    /// The scene, how it is seen and lit, and its maps; each technique has the ideal of its own kernel.
+    pub setting: &'a Setting,
     /// The techniques.
     pub techniques: &'a [Box<dyn Technique>],
-    /// The biases that each of them is given.
+    /// The biases that each of them is given instead of the setting's.
     pub settings: &'a [Bias],
-    /// Texels along one side of each map.
-    pub map_size: u32,
-    /// Pixels across and down.
-    pub resolution: [u32; 2],
 }
 
 /// One technique with one bias.
@@ -126,32 +118,26 @@ pub fn standings(rows: &[Row]) -> Vec<Standing<'_>> {
 /// # Errors
 /// No technique that the device can do, a light or camera without a view, a lost device.
 pub fn study(gpu: &Gpu, request: &Request<'_>, progress: &dyn Progress) -> Result<Study> {
-    let Request { geometry, camera, light, resolution, .. } = *request;
+    let setting = request.setting;
     progress.step("upload");
-    let mut stage = Stage::new(gpu, geometry, camera, light, resolution)?;
-    let lighting = Lighting::new(gpu, &stage);
     let entries: Vec<(Box<dyn Technique>, Bias)> = request
         .techniques
         .iter()
         .flat_map(|technique| request.settings.iter().map(move |bias| (technique.clone(), *bias)))
         .collect();
-    let (entered, view) = enter_biased(gpu, &mut stage, geometry, light, &entries, request.map_size)?;
-    let Entered { contestants, mut left_out } = entered;
+    let Setup { stage, lighting, contestants, mut left_out, views } = setting.set_up_biased(gpu, &entries)?;
     // Each bias is refused alike.
     left_out.dedup();
-    let tracer = Tracer::new(geometry)?;
-    let rays = CameraRays::new(camera, resolution[0], resolution[1])?;
+    let (tracer, rays, light) = (setting.tracer()?, setting.rays()?, &setting.light);
     progress.step("truth: gaps");
-    let gaps = gaps(&tracer, &rays, light, &view);
+    let gaps = gaps(&tracer, &rays, light, &setting.map_views(&views, setting.kernel)?);
     let mut ideals: BTreeMap<u32, Visibility> = BTreeMap::new();
     for technique in request.techniques {
         let width = kernel(technique.as_ref());
         if let Entry::Vacant(place) = ideals.entry(width) {
             progress.step(&format!("truth: kernel of {width}"));
-            let taps = ideal_kernel(width)?;
-            place.insert(
-                tracer.light_space_ideal(&rays, light, &taps, &map_plane(&view), &|s| progress.share(s)),
-            );
+            let (taps, maps) = (ideal_kernel(width)?, setting.map_views(&views, width)?);
+            place.insert(tracer.light_space_ideal(&rays, light, &taps, &maps, &|s| progress.share(s)));
         }
     }
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
@@ -183,7 +169,7 @@ fn kernel(technique: &dyn Technique) -> u32 {
 
 /// How far each receiver lies behind the first surface that its light meets, in texels; 0 where that is
 /// the receiver itself.
-fn gaps(tracer: &Tracer<'_>, rays: &CameraRays, light: &Light, view: &View) -> Vec<f64> {
+fn gaps(tracer: &Tracer<'_>, rays: &CameraRays, light: &Light, maps: &MapViews) -> Vec<f64> {
     let bounds = tracer.geometry().bounds();
     let far = bounds.map_or(0.0, |b| 4.0 * f64::from(b.radius()));
     let gap = |hit: &Hit| {
@@ -201,9 +187,8 @@ fn gaps(tracer: &Tracer<'_>, rays: &CameraRays, light: &Light, view: &View) -> V
             }
         };
         let first = tracer.trace(&Ray { origin, direction });
-        let distance = view.clip_from_world.as_dmat4() * hit.position.extend(1.0);
-        let texel = f64::from(view.texel_world) * distance.w;
-        if first.is_hit() { (hit.position - first.position).dot(direction).max(0.0) / texel } else { 0.0 }
+        let behind = (hit.position - first.position).dot(direction).max(0.0);
+        if first.is_hit() { behind / maps.texel(hit.position) } else { 0.0 }
     };
     tracer.primary(rays).par_iter().map(gap).collect()
 }

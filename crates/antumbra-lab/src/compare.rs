@@ -1,6 +1,7 @@
 //! The comparison: one scene, its ray-traced truths, every technique scored and timed.
 
 use crate::{
+    cascades,
     classes::{self, ClassShare},
     gpu::Gpu,
     lighting::{Lighting, Lookup, Pictures},
@@ -8,46 +9,32 @@ use crate::{
     plane::error_heat_map,
     report::file_stem,
     results::{Program, Results, SCHEMA, Scores, TechniqueImages, TimeResult},
+    setting::{Setting, Setup},
     stage::Stage,
     timing::{self, Entrant},
 };
-use antumbra::{Bounds, Cascades, Kernel, ShadowMap, Technique, View, Weights, technique};
-use antumbra_scene::{Aabb, Camera, Geometry, Light};
-use antumbra_truth::MapPlane;
+use antumbra::{Kernel, Technique, View, Weights, technique};
 use anyhow::{Context, Result, bail};
-use glam::Mat4;
 use std::{
     collections::{BTreeMap, BTreeSet},
     time::Instant,
 };
 
 mod contestant;
-mod facts;
+pub(crate) mod facts;
 mod truths;
 
-pub use contestant::{Contestant, Entered, aim, contestants, enter, enter_biased};
+pub use contestant::{Contestant, Entered, aim, contestants};
 pub use facts::{adapter_facts, memory, work};
 use truths::{Truth, Truths};
 
 /// What to compare.
 #[derive(Debug, Clone)]
 pub struct Request {
-    /// Name of the scene.
-    pub scene: String,
-    /// Its triangles.
-    pub geometry: Geometry,
-    /// Where it is seen from.
-    pub camera: Camera,
-    /// What it is lit by.
-    pub light: Light,
+    /// The scene, how it is seen and lit, and its maps.
+    pub setting: Setting,
     /// The entrants, in order.
     pub techniques: Vec<Box<dyn Technique>>,
-    /// Texels along one side of each map.
-    pub map_size: u32,
-    /// Kernel width of the light-space ideal, texels.
-    pub kernel: u32,
-    /// Pixels across and down.
-    pub resolution: [u32; 2],
     /// Rays per pixel of the screen-space ideal, along one side.
     pub grid: u32,
     /// Frames that are timed, per technique.
@@ -80,20 +67,6 @@ pub struct Comparison {
     pub results: Results,
     /// File name to file.
     pub images: BTreeMap<String, Vec<u8>>,
-}
-
-// Scenes and the library know the same spots.
-const _: () = assert!(Light::MAX_OUTER_ANGLE == antumbra::Light::MAX_OUTER_ANGLE);
-
-/// The light as the library knows it.
-#[must_use]
-pub fn library_light(light: &Light) -> antumbra::Light {
-    match *light {
-        Light::Directional { direction } => antumbra::Light::Directional { direction },
-        Light::Spot { position, direction, outer_angle } => {
-            antumbra::Light::Spot { position, direction, outer_angle }
-        }
-    }
 }
 
 /// Reads technique specs: names with settings, or `all`, `all-comparison`, `all-basis`,
@@ -141,31 +114,6 @@ pub fn techniques(specs: &[String], kernel: u32) -> Result<Vec<Box<dyn Technique
     Ok(list)
 }
 
-/// A light's only view, the same for all techniques: the margin is that of the widest kernel.
-///
-/// # Errors
-/// [`antumbra::LightError`], empty scene.
-pub fn view(stage: &Stage, geometry: &Geometry, light: &Light, shadows: &[&ShadowMap]) -> Result<View> {
-    let bounds = geometry.bounds().context("the scene has no triangles")?;
-    view_from(stage.camera_matrix(), bounds, light, shadows)
-}
-
-/// The same for any camera's matrix, with the scene's box at hand.
-///
-/// # Errors
-/// [`antumbra::LightError`].
-pub fn view_from(camera: Mat4, scene: Aabb, light: &Light, shadows: &[&ShadowMap]) -> Result<View> {
-    let library_stage = antumbra::Stage {
-        camera,
-        scene: Bounds { min: scene.min, max: scene.max },
-        size: shadows.first().context("no shadow map")?.size(),
-        margin_texels: shadows.iter().map(|s| s.margin_texels()).fold(1.0, f32::max),
-    };
-    let views =
-        library_light(light).views(&library_stage, Cascades::new(1)).context("the light has no view")?;
-    views.first().copied().context("the light has no view")
-}
-
 /// The Gaussian of the light-space ideal, `width` texels wide: with the weights that techniques blur with.
 ///
 /// # Errors
@@ -175,14 +123,6 @@ pub fn ideal_kernel(width: u32) -> Result<antumbra_truth::Kernel> {
     Ok(antumbra_truth::Kernel::new(taps.into_iter().map(f64::from).collect())?)
 }
 
-/// How the texels of a view lie in the world, for the light-space ideal.
-#[must_use]
-pub fn map_plane(view: &View) -> MapPlane {
-    let texel = f64::from(view.texel_world);
-    let axis = |row: usize| view.clip_from_world.row(row).truncate().as_dvec3().normalize();
-    MapPlane { right_per_texel: axis(0) * texel, down_per_texel: -axis(1) * texel }
-}
-
 /// Renders, traces, scores and times.
 ///
 /// # Errors
@@ -190,17 +130,16 @@ pub fn map_plane(view: &View) -> MapPlane {
 pub fn compare(gpu: &Gpu, request: &Request, progress: &dyn Progress) -> Result<Comparison> {
     let start = Instant::now();
     progress.step("upload");
-    let mut stage = Stage::new(gpu, &request.geometry, &request.camera, &request.light, request.resolution)?;
-    let lighting = Lighting::new(gpu, &stage);
-    let (geometry, light) = (&request.geometry, &request.light);
-    let (entered, view) = enter(gpu, &mut stage, geometry, light, &request.techniques, request.map_size)?;
-    let Entered { contestants, left_out } = entered;
+    let setting = &request.setting;
+    let Setup { stage, lighting, contestants, left_out, views } = setting.set_up(gpu, &request.techniques)?;
     let mut images = BTreeMap::new();
-    let truths = truths::trace(gpu, request, &stage, &view, progress, &mut images)?;
+    let truths = truths::trace(gpu, request, &stage, &views, progress, &mut images)?;
     let pictures = Pictures::new(gpu, &stage, &lighting)?;
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     stage.encode_surfaces(&mut encoder, None);
     gpu.finish(encoder)?;
+    lighting.write_visibility(gpu, &truths.hard.plane);
+    let cascades = draw_cascades(gpu, setting, (&stage, &pictures, &views), &mut images)?;
     let mut rendered = Vec::new();
     for (i, contestant) in contestants.iter().enumerate() {
         progress.step(&format!("render {}", technique::spec(contestant.shadows.technique())));
@@ -219,10 +158,13 @@ pub fn compare(gpu: &Gpu, request: &Request, progress: &dyn Progress) -> Result<
         schema: SCHEMA.into(),
         program: Program { name: "antumbra".into(), version: env!("CARGO_PKG_VERSION").into() },
         command: request.command.clone(),
-        scene: facts::scene(request)?,
-        resolution: request.resolution,
-        map_size: request.map_size,
-        kernel_texels: request.kernel,
+        scene: facts::scene(setting)?,
+        resolution: setting.resolution,
+        map_size: setting.map_size,
+        kernel_texels: setting.kernel,
+        bias: setting.bias.to_string(),
+        views: facts::views(&views),
+        cascades,
         adapter: adapter_facts(gpu),
         truth: truths.facts,
         techniques,
@@ -232,6 +174,27 @@ pub fn compare(gpu: &Gpu, request: &Request, progress: &dyn Progress) -> Result<
         files: Vec::new(),
     };
     Ok(Comparison { results, images })
+}
+
+/// What the visibility buffer makes of the picture, in the colours of the cascades, if there are several;
+/// returns its name.
+fn draw_cascades(
+    gpu: &Gpu,
+    setting: &Setting,
+    (stage, pictures, views): (&Stage, &Pictures, &[View]),
+    images: &mut BTreeMap<String, Vec<u8>>,
+) -> Result<Option<String>> {
+    if views.len() < 2 {
+        return Ok(None);
+    }
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    pictures.encode(&mut encoder);
+    gpu.finish(encoder)?;
+    let maps = setting.map_views(views, setting.kernel)?;
+    let pixels = cascades::pixels(gpu, stage, &setting.camera, &maps)?;
+    let file = String::from("cascades.png");
+    images.insert(file.clone(), cascades::tint(&pictures.read(gpu)?, &pixels)?.to_png()?);
+    Ok(Some(file))
 }
 
 /// What a technique's picture is worth.
@@ -259,8 +222,9 @@ fn render(
     let test = lighting.read_visibility(gpu)?;
     let picture = pictures.read(gpu)?;
     let spec = technique::spec(shadows.technique());
-    let score =
-        |truth: &Truth, mask: &[bool]| metrics::score(&test, &truth.plane, mask).context(spec.clone());
+    let score = |truth: &Truth, mask: &[bool]| -> Result<_> {
+        Ok(metrics::score(&test, &truth.plane, mask).with_context(|| spec.clone())?.heard())
+    };
     let scores = Scores {
         hard: score(&truths.hard, &truths.hard.shadowable)?,
         light_space: score(&truths.light_space, &truths.light_space.shadowable)?,
@@ -310,16 +274,8 @@ fn time(
     let mut entrants = vec![Entrant { shadows: None, lookup: &unshadowed }];
     entrants.extend(contestants.iter().map(Contestant::entrant));
     let mut times = timing::race(gpu, stage, lighting, &entrants, request.rounds, &|s| progress.share(s))?;
-    let none = times.remove(0);
+    let unshadowed = times.remove(0);
     let hard = contestants.iter().position(|c| c.shadows.technique().page().name == "hard");
-    let Some(hard) = hard.map(|i| times[i].clone()) else { return Ok(times) };
-    let own = |time: &TimeResult| Some(timing::pass_ms(time, "lookup")? - timing::pass_ms(&none, "lookup")?);
-    for time in &mut times {
-        time.frame_ratio_to_hard =
-            Some(time.frame.median_ms / hard.frame.median_ms).filter(|r| r.is_finite());
-        // A lookup that takes no longer than none at all is below what the clock can tell.
-        let pair = own(time).zip(own(&hard)).filter(|(_, h)| *h > 0.0);
-        time.lookup_ratio_to_hard = pair.map(|(t, h)| t.max(0.0) / h).filter(|r| r.is_finite());
-    }
+    timing::relate(&mut times, &unshadowed, hard);
     Ok(times)
 }

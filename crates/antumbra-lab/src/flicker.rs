@@ -28,11 +28,10 @@ use crate::{
     lighting::Lighting,
     motion::{Frame, Path},
     results::Program,
+    setting::Setting,
     stage::Stage,
 };
-use antumbra::{ShadowMap, Technique, technique, technique::Bias};
-use antumbra_scene::{Camera, Geometry, Light};
-use antumbra_truth::Tracer;
+use antumbra::{ShadowMap, Technique, technique};
 use anyhow::{Context, Result, bail};
 use std::{
     collections::BTreeMap,
@@ -57,15 +56,9 @@ use truths::{Moment, Right, Truths};
 /// What to measure.
 #[derive(Debug, Clone)]
 pub struct Request {
-    /// Name of the scene.
-    pub scene: String,
-    /// Its triangles.
-    pub geometry: Geometry,
-    /// Camera of the first frame.
-    pub camera: Camera,
-    /// Light of the first frame.
-    pub light: Light,
-    /// How they move.
+    /// The scene, camera and light of the first frame, the maps.
+    pub setting: Setting,
+    /// How camera and light move.
     pub path: Path,
     /// Number of frames of the whole path.
     pub frames: u32,
@@ -73,12 +66,6 @@ pub struct Request {
     pub until: u32,
     /// The entrants, in order.
     pub techniques: Vec<Box<dyn Technique>>,
-    /// Texels along one side of each map.
-    pub map_size: u32,
-    /// Kernel width of the light-space ideal, texels.
-    pub kernel: u32,
-    /// Pixels across and down.
-    pub resolution: [u32; 2],
     /// Pixels from one that is asked for the ideals to the next, across and down.
     pub stride: u32,
     /// Rays per pixel of the screen-space ideal, along one side.
@@ -102,7 +89,8 @@ pub struct Outcome {
 /// Numbers out of range, no technique that the device can do, a camera that sees nothing, a lost device.
 pub fn measure(gpu: &Gpu, request: &Request, progress: &dyn Progress) -> Result<Outcome> {
     let start = Instant::now();
-    let mut frames = request.path.frames(&request.camera, &request.light, request.frames)?;
+    let setting = &request.setting;
+    let mut frames = request.path.frames(&setting.camera, &setting.light, request.frames)?;
     if !(2..=request.frames).contains(&request.until) {
         bail!("{} measured frames: allowed are 2 to the {} of the path", request.until, request.frames);
     }
@@ -111,29 +99,28 @@ pub fn measure(gpu: &Gpu, request: &Request, progress: &dyn Progress) -> Result<
         bail!("no technique to measure");
     }
     progress.step("upload");
-    let (geometry, light) = (&request.geometry, &request.light);
-    let scene = geometry.bounds().context("the scene has no triangles")?;
-    let mut stage = Stage::new(gpu, geometry, &request.camera, light, request.resolution)?;
+    let mut stage = setting.stage(gpu)?;
     let lighting = Lighting::new(gpu, &stage);
-    let entries: Vec<_> = request.techniques.iter().map(|t| (t.clone(), Bias::Auto)).collect();
-    let Entered { mut contestants, left_out } =
-        compare::contestants(gpu, &stage, &entries, request.map_size)?;
+    let entries = setting.entries(&request.techniques);
+    let Entered { mut contestants, left_out } = setting.contestants(gpu, &stage, &entries)?;
     let mut invalid: Vec<Option<String>> = vec![None; contestants.len()];
-    let tracer = Tracer::new(geometry)?;
+    let tracer = setting.tracer()?;
     let truths = Truths::new(&tracer, request)?;
-    let mut series = Series::new(contestants.len(), request.resolution);
+    let mut series = Series::new(contestants.len(), setting.resolution);
     let mut pictures: Option<Pictures> = None;
     let mut before: Option<(Frame, Moment)> = None;
-    let mut texels: Vec<f32> = Vec::new();
+    let mut texels: Vec<Vec<f32>> = Vec::new();
     let mut tracing = Duration::ZERO;
     progress.step(&format!("frames of the path: {}", frames.len()));
     for (number, frame) in frames.iter().enumerate() {
         let at = || format!("frame {number} of the path");
         let maps: Vec<&ShadowMap> = contestants.iter().map(|c| &c.shadows).collect();
-        let camera = stage.camera_matrix_of(geometry, &frame.camera, &frame.light);
-        let view = compare::view_from(camera, scene, &frame.light, &maps).with_context(at)?;
-        compare::aim(gpu, &mut stage, &mut contestants, &view)?;
-        texels.push(view.texel_world);
+        let moved = Setting { camera: frame.camera, light: frame.light, ..setting.clone() };
+        let camera = stage.camera_matrix_of(&moved.geometry, &moved.camera, &moved.light);
+        let views = moved.views(camera, &maps).with_context(at)?;
+        let planes = moved.map_views(&views, setting.kernel)?;
+        compare::aim(gpu, &mut stage, &mut contestants, &views)?;
+        texels.push(views.iter().map(|view| view.texel_world).collect());
         for (contestant, invalid) in contestants.iter_mut().zip(&mut invalid) {
             let drawn = contestant.draw_maps(gpu, &stage);
             drawn.with_context(|| technique::spec(contestant.shadows.technique()))?;
@@ -145,14 +132,14 @@ pub fn measure(gpu: &Gpu, request: &Request, progress: &dyn Progress) -> Result<
             Some(_) if !camera_rests => Some(answers(gpu, &stage, &lighting, &contestants)?),
             _ => None,
         };
-        stage.look(gpu, geometry, &frame.camera, &frame.light);
+        stage.look(gpu, &setting.geometry, &frame.camera, &frame.light);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         stage.encode_surfaces(&mut encoder, None);
         gpu.finish(encoder)?;
         let seen = answers(gpu, &stage, &lighting, &contestants)?;
         let drawn = stage.surfaces().read_positions(gpu)?;
         let clock = Instant::now();
-        let right = truths.right(frame, &view, &drawn).with_context(at)?;
+        let right = truths.right(frame, &planes, &drawn).with_context(at)?;
         tracing += clock.elapsed();
         let now = Moment { right, answers: seen };
         let pictures =
@@ -164,7 +151,7 @@ pub fn measure(gpu: &Gpu, request: &Request, progress: &dyn Progress) -> Result<
                 Some(_) if last.light == frame.light => was.right.clone(),
                 Some(_) => {
                     let clock = Instant::now();
-                    let right = truths.right_at(&was.right, frame, &view);
+                    let right = truths.right_at(&was.right, frame, &planes);
                     tracing += clock.elapsed();
                     right
                 }
@@ -187,20 +174,22 @@ pub fn measure(gpu: &Gpu, request: &Request, progress: &dyn Progress) -> Result<
         schema: SCHEMA.into(),
         program: Program { name: "antumbra".into(), version: env!("CARGO_PKG_VERSION").into() },
         command: request.command.clone(),
-        scene: request.scene.clone(),
-        triangles: geometry.triangle_count() as u64,
+        scene: setting.name.clone(),
+        triangles: setting.geometry.triangle_count() as u64,
         path: request.path.name().into(),
         motion: request.path.description().into(),
         frames: request.until,
-        resolution: request.resolution,
-        map_size: request.map_size,
-        kernel_texels: request.kernel,
+        resolution: setting.resolution,
+        map_size: setting.map_size,
+        kernel_texels: setting.kernel,
+        cascades: setting.most_views(),
+        bias: setting.bias.to_string(),
         stride: request.stride,
         adapter: adapter_facts(gpu),
         pixels: series.pixels(),
         agreement: series.agreement(),
         ideal_against_hard: series.ideal_against_hard(),
-        texel_changes: texels.windows(2).filter(|pair| pair[0] != pair[1]).count() as u32,
+        texel_changes: texel_changes(&texels),
         techniques,
         left_out,
         heat_maps,
@@ -212,6 +201,15 @@ pub fn measure(gpu: &Gpu, request: &Request, progress: &dyn Progress) -> Result<
         bail!("no pixel sees geometry that faces the light in two frames: nothing can flicker");
     }
     Ok(Outcome { results, images })
+}
+
+/// How often a view's texels had another size than in the frame before; another number of views counts once.
+fn texel_changes(texels: &[Vec<f32>]) -> u32 {
+    let changes = |pair: &[Vec<f32>]| match pair {
+        [was, now] if was.len() == now.len() => was.iter().zip(now).filter(|(a, b)| a != b).count(),
+        _ => 1,
+    };
+    texels.windows(2).map(changes).sum::<usize>() as u32
 }
 
 /// What each map answers for the surfaces that are drawn.

@@ -1,7 +1,7 @@
 //! The lab: renders a scene with every technique, scores each against ray-traced truth, times it,
 //! and writes a report.
 //!
-//! [`compare::compare`] does it all: [`stage`] draws what casters leave and what the camera sees,
+//! Everything starts from a [`setting`] and the light's [`views`]. [`compare::compare`] does it all: [`stage`] draws what casters leave and what the camera sees,
 //! [`lighting`] turns that into visibility and pictures, `antumbra-truth` says what is right,
 //! [`metrics`] how far off a technique is, [`timing`] what it costs; [`results`] is the outcome as
 //! data and [`report`] as a page. [`motion`] moves camera and light, [`flicker`] measures what then
@@ -10,7 +10,9 @@
 
 pub mod animation;
 mod axis;
+pub mod bench;
 pub mod bias;
+pub mod cascades;
 pub mod chart;
 pub mod classes;
 pub mod compare;
@@ -29,7 +31,9 @@ pub mod plane;
 pub mod regions;
 pub mod report;
 pub mod results;
+pub mod setting;
 mod shaders;
 pub mod stage;
 mod texels;
 pub mod timing;
+pub mod views;

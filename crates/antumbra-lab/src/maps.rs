@@ -75,13 +75,19 @@ impl Picture {
     }
 }
 
-/// Linear depth of the casters as a view sees them, whatever the technique keeps. From now on that is
-/// the only view that the stage draws casters for.
+/// Linear depth of the casters as a view sees them, whatever the technique keeps, as a picture called `name`. From
+/// now on that is the only view that the stage draws casters for.
 ///
 /// # Errors
 /// A lost device, or no room for the texture.
-pub fn depth(gpu: &Gpu, stage: &mut Stage, view: &View, [width, height]: [u32; 2]) -> Result<Picture> {
-    stage.set_views(gpu, &[*view]);
+pub fn depth(
+    gpu: &Gpu,
+    stage: &mut Stage,
+    view: &View,
+    [width, height]: [u32; 2],
+    name: &str,
+) -> Result<Picture> {
+    stage.set_views(gpu, &[*view])?;
     let target = gpu.target("casters' depth", [width, height], DEPTH_FORMAT);
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     {
@@ -107,9 +113,15 @@ pub fn depth(gpu: &Gpu, stage: &mut Stage, view: &View, [width, height]: [u32; 2
         plane.values.iter_mut().for_each(|z| *z = k * *z / (1.0 - (1.0 - k) * *z));
     }
     match planes.first() {
-        Some(plane) => Ok(Picture::new("depth".into(), plane, 0.0)),
+        Some(plane) => Ok(Picture::new(name.into(), plane, 0.0)),
         None => bail!("depth has no channel"),
     }
+}
+
+/// What names of pictures of one view begin with, where there are several.
+#[must_use]
+pub fn cascade_prefix(views: &[View], number: usize) -> String {
+    if views.len() > 1 { format!("cascade-{number}-") } else { String::new() }
 }
 
 /// Hands every channel of every layer of every map to `take`, at mip level `level`, one after the
@@ -137,11 +149,14 @@ pub fn pictures(
             );
         }
         let size = [texture.width(), texture.height()].map(|n| (n >> level).max(1));
-        for layer in 0..texture.depth_or_array_layers() {
+        // Views begin at multiples of the map's layers; those that the light does not have were never filled.
+        for layer in 0..map.layers * shadows.views().len() as u32 {
             let bytes = gpu.read_layer(texture, layer, level)?;
             let planes = texels::planes(texture.format(), size, &bytes)?;
             for (plane, channel) in planes.iter().zip(["r", "g", "b", "a"]) {
-                let name = format!("{}-{layer}-{channel}", map.name.replace(' ', "-"));
+                let (view, layer) = (layer / map.layers, layer % map.layers);
+                let cascade = cascade_prefix(shadows.views(), view as usize);
+                let name = format!("{cascade}{}-{layer}-{channel}", map.name.replace(' ', "-"));
                 take(Picture::new(name, plane, technique.stored_zero(index)))?;
             }
         }

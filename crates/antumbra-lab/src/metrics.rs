@@ -22,6 +22,11 @@ pub const EDGE_PIXELS: u32 = 2;
 /// the definitions): closer by, blur and aliasing are counted by the other metrics.
 pub const DEEP_PIXELS: u32 = 4;
 
+/// Fewest pixels over which leak and over-darkening are told. A mean of n values between 0 and 1 that are
+/// as different as can be is known to ½/√n: to 2.5 % with 400 pixels, a square of 20 × 20. Over fewer, one
+/// small spot decides.
+pub const FEWEST_DEEP: u64 = 400;
+
 /// Tolerance within which a truth counts as fully lit (1) or fully shadowed (0), and by which an
 /// answer may leave 0..1: rounding of sums of kernel weights.
 const ROUNDING: f32 = 1e-3;
@@ -58,6 +63,24 @@ pub struct Score {
     pub edge_pixels: u64,
     /// Pixels that are fully lit in truth.
     pub lit_pixels: u64,
+    /// Pixels that `leak` is the mean over. Added later.
+    #[serde(default)]
+    pub deep_shadow_pixels: u64,
+    /// Pixels that `over_darkening` is the mean over. Added later.
+    #[serde(default)]
+    pub deep_lit_pixels: u64,
+}
+
+impl Score {
+    /// The same without leak and over-darkening where they are means over fewer than [`FEWEST_DEEP`] pixels.
+    #[must_use]
+    pub fn heard(self) -> Self {
+        Self {
+            leak: self.leak.filter(|_| self.deep_shadow_pixels >= FEWEST_DEEP),
+            over_darkening: self.over_darkening.filter(|_| self.deep_lit_pixels >= FEWEST_DEEP),
+            ..self
+        }
+    }
 }
 
 /// Why images could not be scored.
@@ -132,6 +155,8 @@ pub fn score(test: &Plane, truth: &Plane, shadowable: &[bool]) -> Result<Score, 
         shadowable_pixels,
         edge_pixels: count(&class.near_edges),
         lit_pixels: count(&class.lit),
+        deep_shadow_pixels: count(&class.deep_shadow),
+        deep_lit_pixels: count(&class.deep_lit),
     })
 }
 

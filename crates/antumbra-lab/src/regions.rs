@@ -26,23 +26,24 @@ enum Blockers {
     Several,
 }
 
-/// Contact: shadowed pixels whose blocker is within `near` (world units) of the receiver, where
-/// approximations of the shadow test have no room to fall off. Layers: shadowed pixels with two
-/// blockers or more, at least `near` apart, where a kernel sees several depths.
+/// Contact: shadowed pixels whose blocker is within `near` (world units, for a point in the world) of the
+/// receiver, where approximations of the shadow test have no room to fall off. Layers: shadowed pixels with
+/// two blockers or more, at least `near` apart, where a kernel sees several depths.
 #[must_use]
 pub fn regions(
     tracer: &Tracer<'_>,
     hits: &[Hit],
     shadowable: &[bool],
     light: &Light,
-    near: f64,
+    near: &(dyn Fn(DVec3) -> f64 + Sync),
 ) -> Vec<Region> {
     let classes: Vec<Blockers> = hits
         .par_iter()
         .zip(shadowable)
-        .map(
-            |(hit, shadowable)| if *shadowable { blockers(tracer, hit, light, near) } else { Blockers::None },
-        )
+        .map(|(hit, shadowable)| match shadowable {
+            true => blockers(tracer, hit, light, near(hit.position)),
+            false => Blockers::None,
+        })
         .collect();
     let region = |name, class| Region { name, pixels: classes.iter().map(|c| *c == class).collect() };
     vec![region("contact", Blockers::Contact), region("layers", Blockers::Several)]

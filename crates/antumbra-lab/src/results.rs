@@ -15,8 +15,10 @@ use std::path::Path;
 
 mod cost;
 mod csv;
+mod scene;
 
 pub use cost::{Lifetime, MemoryItem, MemoryResult, PassTime, Spread, TimeMethod, TimeResult, Work};
+pub use scene::{BoundsFacts, CameraFacts, LensFacts, LightFacts, SceneFacts, ViewFacts};
 
 /// Name and version of the schema.
 pub const SCHEMA: &str = "antumbra-results/1";
@@ -38,6 +40,15 @@ pub struct Results {
     pub map_size: u32,
     /// Width of the light-space ideal's kernel, texels.
     pub kernel_texels: u32,
+    /// The bias of every technique. Added later.
+    #[serde(default)]
+    pub bias: String,
+    /// The light's views (cascades), nearest first. Added later.
+    #[serde(default)]
+    pub views: Vec<ViewFacts>,
+    /// Name of the picture in the colours of the cascades, if there are several. Added later.
+    #[serde(default)]
+    pub cascades: Option<String>,
     /// The graphics adapter.
     pub adapter: AdapterFacts,
     /// The ray-traced truths.
@@ -63,84 +74,6 @@ pub struct Program {
     pub name: String,
     /// Version as released.
     pub version: String,
-}
-
-/// What was rendered.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct SceneFacts {
-    /// File or generator.
-    pub name: String,
-    /// Triangles after instancing.
-    pub triangles: u64,
-    /// The light.
-    pub light: LightFacts,
-    /// The camera.
-    pub camera: CameraFacts,
-    /// The point of the file's coordinates that all others here are relative to: zero, unless those are
-    /// large against the scene.
-    #[serde(default)]
-    pub origin: [f64; 3],
-    /// World-space box around the geometry.
-    pub bounds: BoundsFacts,
-}
-
-/// The light, world space; directions point the way the light travels.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(tag = "kind", rename_all = "snake_case")]
-pub enum LightFacts {
-    /// Parallel rays.
-    Directional {
-        /// Unit vector.
-        direction: [f32; 3],
-    },
-    /// A cone.
-    Spot {
-        /// Apex.
-        position: [f32; 3],
-        /// Unit vector along the axis.
-        direction: [f32; 3],
-        /// Half angle of the cone, degrees.
-        outer_angle_deg: f32,
-    },
-    /// All directions.
-    Point {
-        /// Centre.
-        position: [f32; 3],
-    },
-}
-
-/// A camera, world space.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct CameraFacts {
-    /// Eye.
-    pub position: [f32; 3],
-    /// Point in the middle of the picture.
-    pub target: [f32; 3],
-    /// Roughly up.
-    pub up: [f32; 3],
-    /// `fov_y_deg` or `height`.
-    #[serde(flatten)]
-    pub lens: LensFacts,
-}
-
-/// How a camera projects.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub enum LensFacts {
-    /// Perspective: vertical field of view, degrees.
-    #[serde(rename = "fov_y_deg")]
-    FovYDeg(f32),
-    /// Orthographic: height of the picture, world units.
-    #[serde(rename = "height")]
-    Height(f32),
-}
-
-/// An axis-aligned box.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct BoundsFacts {
-    /// Smallest corner.
-    pub min: [f32; 3],
-    /// Largest corner.
-    pub max: [f32; 3],
 }
 
 /// The graphics adapter as it names itself.

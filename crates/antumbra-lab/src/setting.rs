@@ -1,9 +1,10 @@
 //! What every measurement starts from: a scene, how it is seen and lit, and the maps that shadow it.
 
 use crate::{
-    compare::{Contestant, aim, contestants},
+    compare::{Contestant, Entered, aim, contestants},
     gpu::Gpu,
     lighting::Lighting,
+    results::LeftOut,
     stage::Stage,
     views::{self, MapViews},
 };
@@ -46,19 +47,20 @@ pub struct Setup {
     pub lighting: Lighting,
     /// The techniques, in the order they were given.
     pub contestants: Vec<Contestant>,
+    /// What the device or the scene refuses.
+    pub left_out: Vec<LeftOut>,
     /// The light's views, the same for all techniques: the margin is that of the widest kernel.
     pub views: Vec<View>,
 }
 
 impl Setting {
-    /// Uploads the scene, makes a map for every technique, and gives all of them the light's views.
+    /// Uploads the scene, makes a map for every technique, and gives all of them the light's views. Maps that
+    /// keep triangles by id are drawn, so that they have memory for all of them.
     ///
     /// # Errors
-    /// As [`Stage::new`]; settings that the device cannot do, naming the technique; a light or camera
-    /// without a view.
+    /// As [`Stage::new`] and [`contestants`](Self::contestants); a light or camera without a view.
     pub fn set_up(&self, gpu: &Gpu, techniques: &[Box<dyn Technique>]) -> Result<Setup> {
-        let entries: Vec<_> = techniques.iter().map(|t| (t.clone(), self.bias)).collect();
-        self.set_up_biased(gpu, &entries)
+        self.set_up_biased(gpu, &self.entries(techniques))
     }
 
     /// The same with a bias of its own for every technique.
@@ -68,15 +70,37 @@ impl Setting {
     pub fn set_up_biased(&self, gpu: &Gpu, entries: &[(Box<dyn Technique>, Bias)]) -> Result<Setup> {
         let mut stage = self.stage(gpu)?;
         let lighting = Lighting::new(gpu, &stage);
-        let mut contestants = self.contestants(gpu, &stage, entries)?;
-        let views = if contestants.is_empty() {
-            Vec::new()
-        } else {
-            let maps: Vec<&ShadowMap> = contestants.iter().map(|c| &c.shadows).collect();
-            self.views(stage.camera_matrix(), &maps)?
-        };
-        aim(gpu, &mut stage, &mut contestants, &views)?;
-        Ok(Setup { stage, lighting, contestants, views })
+        let (Entered { contestants, left_out }, views) = self.enter(gpu, &mut stage, entries)?;
+        Ok(Setup { stage, lighting, contestants, left_out, views })
+    }
+
+    /// The same on a stage that holds the scene already: techniques, and the light's views.
+    ///
+    /// # Errors
+    /// As [`set_up`](Self::set_up).
+    pub fn enter(
+        &self,
+        gpu: &Gpu,
+        stage: &mut Stage,
+        entries: &[(Box<dyn Technique>, Bias)],
+    ) -> Result<(Entered, Vec<View>)> {
+        let mut entered = self.contestants(gpu, stage, entries)?;
+        let contestants = &mut entered.contestants;
+        let maps: Vec<&ShadowMap> = contestants.iter().map(|c| &c.shadows).collect();
+        let views = if maps.is_empty() { Vec::new() } else { self.views(stage.camera_matrix(), &maps)? };
+        aim(gpu, stage, contestants, &views)?;
+        for contestant in contestants {
+            if contestant.shadows.technique().caster().keeps_ids() {
+                contestant.draw_maps(gpu, stage)?;
+            }
+        }
+        Ok((entered, views))
+    }
+
+    /// Techniques with this setting's bias.
+    #[must_use]
+    pub fn entries(&self, techniques: &[Box<dyn Technique>]) -> Vec<(Box<dyn Technique>, Bias)> {
+        techniques.iter().map(|technique| (technique.clone(), self.bias)).collect()
     }
 
     /// The scene alone on the GPU.
@@ -87,16 +111,17 @@ impl Setting {
         Stage::new(gpu, &self.geometry, &self.camera, &self.light, self.resolution)
     }
 
-    /// Maps of this setting for techniques and their biases, without views yet.
+    /// Maps of this setting for techniques and their biases, without views yet. Those that the device or the
+    /// scene refuses are left out.
     ///
     /// # Errors
-    /// Settings that the device cannot do, naming the technique.
+    /// [`Refused`](crate::results::Refused) where none is left.
     pub fn contestants(
         &self,
         gpu: &Gpu,
         stage: &Stage,
         entries: &[(Box<dyn Technique>, Bias)],
-    ) -> Result<Vec<Contestant>> {
+    ) -> Result<Entered> {
         contestants(gpu, stage, entries, self.map_size, self.most_views())
     }
 
@@ -105,7 +130,8 @@ impl Setting {
     /// # Errors
     /// [`antumbra::LightError`], an empty scene.
     pub fn views(&self, camera: Mat4, maps: &[&ShadowMap]) -> Result<Vec<View>> {
-        let scene = self.geometry.bounds_around(self.camera.position).context("the scene has no triangles")?;
+        let scene =
+            self.geometry.bounds_around(self.camera.position).context("the scene has no triangles")?;
         views::fit(camera, scene, &self.light, self.cascades, maps)
     }
 

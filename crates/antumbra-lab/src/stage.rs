@@ -185,13 +185,23 @@ impl Stage {
         &self.surfaces
     }
 
-    /// Most views that casters are drawn for at a time.
-    pub const MOST_VIEWS: usize = 32;
+    /// Most views that casters are drawn for at a time: eight cascades, plain and jittered in sixteen, nine
+    /// and four passes ([`Stratified`](antumbra::Stratified)).
+    pub const MOST_VIEWS: usize = 8 * (1 + 16 + 9 + 4);
 
-    /// Takes the views that [`draw_casters`](Self::draw_casters) will be asked for, at most
-    /// [`MOST_VIEWS`](Self::MOST_VIEWS); further ones are left out.
-    pub fn set_views(&mut self, gpu: &Gpu, views: &[antumbra::View]) {
-        self.views = views.iter().take(Self::MOST_VIEWS).copied().collect();
+    /// Takes the views that [`draw_casters`](Self::draw_casters) will be asked for.
+    ///
+    /// # Errors
+    /// More than [`MOST_VIEWS`](Self::MOST_VIEWS).
+    pub fn set_views(&mut self, gpu: &Gpu, views: &[antumbra::View]) -> Result<()> {
+        if views.len() > Self::MOST_VIEWS {
+            let most = Self::MOST_VIEWS;
+            bail!(
+                "{} views to draw casters for; there is room for {most}: take fewer cascades or techniques",
+                views.len()
+            );
+        }
+        self.views = views.to_vec();
         for (i, view) in self.views.iter().enumerate() {
             let matrix = view.clip_from_world.to_cols_array();
             gpu.queue.write_buffer(
@@ -200,6 +210,7 @@ impl Stage {
                 bytemuck::bytes_of(&matrix),
             );
         }
+        Ok(())
     }
 
     /// Draws every caster into a shadow map's pass, for one of the views of

@@ -221,6 +221,20 @@ fn spread(samples: &[f64]) -> Spread {
     Spread { median_ms: at(sorted.len() / 2), min_ms: at(0), max_ms: at(sorted.len().saturating_sub(1)) }
 }
 
+/// Fills in what `times` are in multiples of those of the standard shadow map, which is number `hard` among
+/// them; `unshadowed` is what shading takes without any.
+pub fn relate(times: &mut [TimeResult], unshadowed: &TimeResult, hard: Option<usize>) {
+    let Some(hard) = hard.and_then(|i| times.get(i)).cloned() else { return };
+    let own = |time: &TimeResult| Some(pass_ms(time, "lookup")? - pass_ms(unshadowed, "lookup")?);
+    for time in times {
+        time.frame_ratio_to_hard =
+            Some(time.frame.median_ms / hard.frame.median_ms).filter(|r| r.is_finite());
+        // A lookup that takes no longer than none at all is below what the clock can tell.
+        let pair = own(time).zip(own(&hard)).filter(|(_, h)| *h > 0.0);
+        time.lookup_ratio_to_hard = pair.map(|(t, h)| t.max(0.0) / h).filter(|r| r.is_finite());
+    }
+}
+
 /// Median of a pass, if it was timed.
 #[must_use]
 pub fn pass_ms(time: &TimeResult, name: &str) -> Option<f64> {

@@ -6,6 +6,9 @@ use antumbra_truth::{MapPlane, MapPlanes};
 use anyhow::{Context, Result, bail};
 use glam::{DVec2, DVec3, Mat4};
 
+// Scenes and the library know the same spots.
+const _: () = assert!(Light::MAX_OUTER_ANGLE == antumbra::Light::MAX_OUTER_ANGLE);
+
 /// The light as the library knows it.
 #[must_use]
 pub fn library_light(light: &Light) -> antumbra::Light {
@@ -54,10 +57,17 @@ impl MapViews {
     /// # Errors
     /// No views.
     pub fn new(views: &[View], size: u32, kernel: u32) -> Result<Self> {
+        Self::reaching(views, size, 0.5 * (f64::from(kernel) + 1.0))
+    }
+
+    /// Of maps of `size` × `size` texels, for lookups that read up to `reach` texels around a point.
+    ///
+    /// # Errors
+    /// No views.
+    pub fn reaching(views: &[View], size: u32, reach: f64) -> Result<Self> {
         if views.is_empty() {
             bail!("no view of the light to shade with");
         }
-        let reach = 0.5 * (f64::from(kernel) + 1.0);
         Ok(Self { views: views.to_vec(), within: 0.5 - (reach / f64::from(size)).min(0.499) })
     }
 

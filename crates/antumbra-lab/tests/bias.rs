@@ -8,9 +8,11 @@ use antumbra_lab::{
     bias::{self, Request, Row, Standing},
     compare::{self, Silent},
     gpu::Gpu,
+    setting::Setting,
 };
 use antumbra_scene::procedural;
 use antumbra_testing::Trials;
+use std::sync::Arc;
 
 /// Most acne: share of the fully lit pixels.
 const ACNE: f64 = 2e-4;
@@ -102,14 +104,21 @@ fn measure(
     let scene = procedural::by_name(scene).unwrap().scene(1);
     let specs: Vec<String> = techniques.iter().map(|spec| spec.to_string()).collect();
     let settings: Vec<Bias> = settings.iter().map(|text| text.parse().unwrap()).collect();
+    let setting = Setting {
+        name: scene.name.clone(),
+        camera: scene.main_camera(),
+        light: scene.main_light(),
+        geometry: Arc::new(scene.flatten()),
+        resolution,
+        map_size,
+        kernel: 5,
+        cascades: 1,
+        bias: Bias::Auto,
+    };
     let request = Request {
-        geometry: &scene.flatten(),
-        camera: &scene.main_camera(),
-        light: &scene.main_light(),
+        setting: &setting,
         techniques: &compare::techniques(&specs, 5).unwrap(),
         settings: &settings,
-        map_size,
-        resolution,
     };
     bias::study(&gpu, &request, &Silent).unwrap().rows
 }

@@ -3,15 +3,17 @@
 
 #![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
 
-use antumbra::{Capacity, Technique, technique::Bias};
+use antumbra::{Capacity, technique::Bias};
 use antumbra_lab::{
     compare::{self, Entered},
     gpu::Gpu,
     results::Refused,
+    setting::Setting,
     stage::Stage,
 };
-use antumbra_scene::{Geometry, Light, procedural};
+use antumbra_scene::procedural;
 use antumbra_testing::Trials;
+use std::sync::Arc;
 
 const RESOLUTION: [u32; 2] = [16, 12];
 
@@ -19,13 +21,17 @@ fn main() {
     let mut trials = Trials::default();
     trials.add("a stage knows how many triangles its maps must hold", |gpu| {
         for (name, pieces) in [("spheres", 1), ("spot", 2)] {
-            let (stage, geometry, _) = staged(&adopted(gpu), name);
-            assert_eq!(stage.capacity().triangles as usize, pieces * geometry.triangle_count(), "{name}");
+            let (stage, setting) = staged(&adopted(gpu), name);
+            assert_eq!(
+                stage.capacity().triangles as usize,
+                pieces * setting.geometry.triangle_count(),
+                "{name}"
+            );
         }
     });
     trials.add("maps that are too small are allocated anew", |gpu| {
         let gpu = adopted(gpu);
-        let (stage, _, _) = staged(&gpu, "spheres");
+        let (stage, _) = staged(&gpu, "spheres");
         let enough = stage.capacity().triangles;
         for spec in ["dpm", "exact"] {
             let entered = enter(&gpu, "spheres", few(5), &[spec]).unwrap();
@@ -74,17 +80,25 @@ fn few(triangles: u32) -> Capacity {
     Capacity { triangles, ..Capacity::default() }
 }
 
-fn staged(gpu: &Gpu, name: &str) -> (Stage, Geometry, Light) {
+fn staged(gpu: &Gpu, name: &str) -> (Stage, Setting) {
     let scene = procedural::by_name(name).unwrap().scene(1);
-    let (geometry, light) = (scene.flatten(), scene.main_light());
-    let stage = Stage::new(gpu, &geometry, &scene.main_camera(), &light, RESOLUTION).unwrap();
-    (stage, geometry, light)
+    let setting = Setting {
+        name: name.into(),
+        geometry: Arc::new(scene.flatten()),
+        camera: scene.main_camera(),
+        light: scene.main_light(),
+        resolution: RESOLUTION,
+        map_size: 8,
+        kernel: 3,
+        cascades: 1,
+        bias: Bias::Auto,
+    };
+    (setting.stage(gpu).unwrap(), setting)
 }
 
 fn enter(gpu: &Gpu, name: &str, capacity: Capacity, specs: &[&str]) -> anyhow::Result<Entered> {
-    let (mut stage, geometry, light) = staged(gpu, name);
+    let (mut stage, setting) = staged(gpu, name);
     stage.set_capacity(capacity);
     let techniques = compare::techniques(&specs.iter().map(|s| (*s).into()).collect::<Vec<_>>(), 3).unwrap();
-    let entries: Vec<(Box<dyn Technique>, Bias)> = techniques.into_iter().map(|t| (t, Bias::Auto)).collect();
-    compare::enter_biased(gpu, &mut stage, &geometry, &light, &entries, 8).map(|(entered, _)| entered)
+    setting.enter(gpu, &mut stage, &setting.entries(&techniques)).map(|(entered, _)| entered)
 }

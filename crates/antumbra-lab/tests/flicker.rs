@@ -2,22 +2,25 @@
 
 #![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
 
-use antumbra::{Technique, technique};
+use antumbra::{Technique, technique, technique::Bias};
 use antumbra_lab::{
     compare::Silent,
     flicker::{self, Promise, Request, Results, TechniqueFlicker},
     gpu::Gpu,
     motion::{Frame, Path},
+    setting::Setting,
     stage::Stage,
 };
 use antumbra_scene::{Camera, procedural};
 use antumbra_testing::{Trials, broken::Broken};
+use std::sync::Arc;
 
 fn main() {
     let mut trials = Trials::default();
     trials.add("sub_pixel_shadow_maps_hardly_flicker_where_polygons_are_large", |gpu| {
         let both = request("contact", Path::Both, &["hard", "spsm"]);
-        let results = run(gpu, &Request { resolution: [240, 180], frames: 9, until: 9, ..both });
+        let setting = Setting { resolution: [240, 180], ..both.setting.clone() };
+        let results = run(gpu, &Request { setting, frames: 9, until: 9, ..both });
         let ratio = of(&results, "spsm").ratio_to_hard.unwrap();
         // Measured: 0.093. Centres, which tell where no kept triangle does, round the corners of polygons.
         assert!(ratio < 0.15, "{ratio}");
@@ -64,9 +67,9 @@ fn main() {
     });
     trials.add("a_stage_that_looks_elsewhere_draws_what_a_new_one_draws", |gpu| {
         let (gpu, scene) = (adopt(gpu), request("spheres", Path::Both, &[]));
-        let frames = Path::Both.frames(&scene.camera, &scene.light, 2).unwrap();
+        let frames = Path::Both.frames(&scene.setting.camera, &scene.setting.light, 2).unwrap();
         let stage = |camera: &Camera, light| {
-            Stage::new(&gpu, &scene.geometry, camera, light, scene.resolution).unwrap()
+            Stage::new(&gpu, &scene.setting.geometry, camera, light, scene.setting.resolution).unwrap()
         };
         let draw = |stage: &Stage| {
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
@@ -78,8 +81,8 @@ fn main() {
         let before = draw(&moved);
         let there = stage(&frames[1].camera, &frames[1].light);
         let Frame { camera, light } = frames[1];
-        assert_eq!(moved.camera_matrix_of(&scene.geometry, &camera, &light), there.camera_matrix());
-        moved.look(&gpu, &scene.geometry, &camera, &light);
+        assert_eq!(moved.camera_matrix_of(&scene.setting.geometry, &camera, &light), there.camera_matrix());
+        moved.look(&gpu, &scene.setting.geometry, &camera, &light);
         assert_eq!(moved.camera_matrix(), there.camera_matrix());
         assert!(draw(&moved) == draw(&there) && draw(&moved) != before);
     });
@@ -120,17 +123,21 @@ fn main() {
 fn request(scene: &str, path: Path, techniques: &[&str]) -> Request {
     let scene = procedural::by_name(scene).unwrap().scene(1);
     Request {
-        scene: scene.name.clone(),
-        camera: scene.main_camera(),
-        light: scene.main_light(),
-        geometry: scene.flatten(),
+        setting: Setting {
+            name: scene.name.clone(),
+            camera: scene.main_camera(),
+            light: scene.main_light(),
+            geometry: Arc::new(scene.flatten()),
+            resolution: [96, 72],
+            map_size: 256,
+            kernel: 5,
+            cascades: 1,
+            bias: Bias::Auto,
+        },
         path,
         frames: 5,
         until: 5,
         techniques: techniques.iter().map(|spec| technique::parse(spec).unwrap()).collect(),
-        map_size: 256,
-        kernel: 5,
-        resolution: [96, 72],
         stride: 2,
         grid: 3,
         command: Vec::new(),
@@ -150,9 +157,10 @@ fn wobbling() -> Box<dyn Technique> {
 /// The camera moves close to things, so that the light's view has to follow it.
 fn close_up(technique: Box<dyn Technique>) -> Request {
     let far = request("spheres", Path::Camera, &[]);
-    let position = far.camera.target.lerp(far.camera.position, 0.5);
-    let camera = Camera { position, ..far.camera };
-    Request { camera, frames: 9, until: 9, techniques: vec![technique], ..far }
+    let own = far.setting.camera;
+    let camera = Camera { position: own.target.lerp(own.position, 0.5), ..own };
+    let setting = Setting { camera, ..far.setting.clone() };
+    Request { setting, frames: 9, until: 9, techniques: vec![technique], ..far }
 }
 
 fn adopt(gpu: &antumbra_testing::Gpu) -> Gpu {

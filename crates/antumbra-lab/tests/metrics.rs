@@ -147,3 +147,17 @@ fn other_sizes_and_empty_masks_are_refused() {
     assert!(matches!(score(&halves(), &halves(), &ALL[1..]), Err(ScoreError::Size { .. })));
     assert_eq!(score(&halves(), &halves(), &[false; 200]), Err(ScoreError::NothingShadowable(200)));
 }
+
+#[test]
+fn means_over_few_pixels_are_not_told() {
+    // Deep shadow is columns 0..=6 of 10 rows, deep light as many.
+    let few = score(&halves(), &halves(), &ALL).unwrap();
+    assert_eq!((few.deep_shadow_pixels, few.deep_lit_pixels), (70, 70));
+    assert_eq!((few.heard().leak, few.heard().over_darkening), (None, None));
+    assert_eq!((few.heard().acne, few.heard().rmse), (few.acne, few.rmse));
+    // Of twenty columns of shadow and sixty of light, in 20 rows, 17 and 57 are deep.
+    let wide = Plane::from_fn(80, 20, |x, _| if x < 20 { 0.0 } else { 1.0 });
+    let some = score(&wide, &wide, &[true; 1600]).unwrap();
+    assert_eq!((some.deep_shadow_pixels, some.deep_lit_pixels), (17 * 20, 57 * 20));
+    assert_eq!((some.heard().leak, some.heard().over_darkening), (None, Some(0.0)));
+}

@@ -9,7 +9,7 @@ use antumbra_lab::report::{self, ReportError};
 use antumbra_lab::results::{
     AdapterFacts, BoundsFacts, CameraFacts, Family, LeftOut, LensFacts, Lifetime, LightFacts, MemoryItem,
     MemoryResult, PassTime, Program, Results, ResultsError, SCHEMA, SceneFacts, Scores, Spread,
-    TechniqueImages, TechniqueResult, TimeMethod, TimeResult, TruthFacts, TruthImages, Work,
+    TechniqueImages, TechniqueResult, TimeMethod, TimeResult, TruthFacts, TruthImages, ViewFacts, Work,
 };
 use std::collections::BTreeMap;
 use std::fs;
@@ -125,6 +125,9 @@ fn results() -> Results {
         resolution: [12, 12],
         map_size: 512,
         kernel_texels: 5,
+        bias: "auto".into(),
+        views: vec![ViewFacts { texel_world: 0.01, depth_world: 10.0 }],
+        cascades: None,
         adapter: AdapterFacts {
             name: "a device".into(),
             driver: "1.2".into(),

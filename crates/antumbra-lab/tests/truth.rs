@@ -140,7 +140,7 @@ impl Truth {
         let tracer = Tracer::new(&shot.geometry).unwrap();
         let hits = tracer.primary(&shot.rays());
         let near = 0.05 * f64::from(view.depth_world);
-        let parts = regions::regions(&tracer, &hits, &ideal.shadowable, &shot.light, near);
+        let parts = regions::regions(&tracer, &hits, &ideal.shadowable, &shot.light, &|_| near);
         Self { view, ideal, parts }
     }
 }

@@ -19,21 +19,24 @@ use antumbra_lab::{
     plane::Plane,
     regions,
     results::{AdapterFacts, LeftOut, Refused, TimeResult},
+    setting::{Setting, Setup},
     stage::Stage,
     timing::{self, Entrant},
 };
-use antumbra_scene::{Camera, Geometry, Light, procedural};
-use antumbra_truth::{CameraRays, MapPlane, Tracer};
+use antumbra_scene::{Camera, procedural};
 use anyhow::{Context, Result, bail};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
-use std::{cell::RefCell, collections::BTreeMap, rc::Rc};
+use std::{cell::RefCell, collections::BTreeMap, sync::Arc};
+
+/// Width of the light-space ideal's kernel where an experiment names none, texels.
+const KERNEL: u32 = 5;
 
 /// Shared services of all experiments.
 pub struct Bench<'a> {
     gpu: Gpu,
     cache: Cache,
-    scenes: RefCell<BTreeMap<&'static str, Rc<Loaded>>>,
+    scenes: RefCell<BTreeMap<&'static str, Setting>>,
     progress: &'a dyn Progress,
     /// Whether everything is made small, to see that it works rather than to measure.
     pub quick: bool,
@@ -48,13 +51,6 @@ impl std::fmt::Debug for Bench<'_> {
             .field("quick", &self.quick)
             .finish_non_exhaustive()
     }
-}
-
-#[derive(Debug)]
-struct Loaded {
-    geometry: Geometry,
-    camera: Camera,
-    light: Light,
 }
 
 /// The first spec that this program can read, if any.
@@ -93,7 +89,7 @@ impl<'a> Bench<'a> {
     #[must_use]
     pub fn shot(&self, scene: &'static str, resolution: [u32; 2]) -> Shot {
         let scale = if self.quick { 4 } else { 1 };
-        Shot { scene, distance: 1.0, resolution: resolution.map(|n| (n / scale).max(1)) }
+        Shot { scene, distance: 1.0, cascades: 1, resolution: resolution.map(|n| (n / scale).max(1)) }
     }
 
     /// A map's size, a quarter of it in a quick run.
@@ -108,22 +104,36 @@ impl<'a> Bench<'a> {
         if self.quick { 1 } else { frames }
     }
 
-    fn scene(&self, name: &'static str) -> Result<Rc<Loaded>> {
-        if let Some(loaded) = self.scenes.borrow().get(name) {
-            return Ok(Rc::clone(loaded));
-        }
-        self.progress.step(&format!("build the scene {name}"));
-        let entry = procedural::by_name(name).with_context(|| format!("no scene is called {name}"))?;
-        let scene = entry.scene(procedural::Procedural::DEFAULT_SEED);
-        let loaded =
-            Loaded { geometry: scene.flatten(), camera: scene.main_camera(), light: scene.main_light() };
-        let loaded = Rc::new(loaded);
-        self.scenes.borrow_mut().insert(name, Rc::clone(&loaded));
-        Ok(loaded)
-    }
-
-    fn stage(&self, shot: &Shot, scene: &Loaded) -> Result<Stage> {
-        Stage::new(&self.gpu, &scene.geometry, &camera(shot, scene), &scene.light, shot.resolution)
+    /// A scene as a shot sees it, with maps of `map` texels.
+    fn setting(&self, shot: &Shot, map: u32) -> Result<Setting> {
+        let name = shot.scene;
+        let known = self.scenes.borrow().get(name).cloned();
+        let own = match known {
+            Some(setting) => setting,
+            None => {
+                self.progress.step(&format!("build the scene {name}"));
+                let entry =
+                    procedural::by_name(name).with_context(|| format!("no scene is called {name}"))?;
+                let scene = entry.scene(procedural::Procedural::DEFAULT_SEED);
+                let setting = Setting {
+                    name: name.into(),
+                    geometry: Arc::new(scene.flatten()),
+                    camera: scene.main_camera(),
+                    light: scene.main_light(),
+                    resolution: shot.resolution,
+                    map_size: map,
+                    kernel: KERNEL,
+                    cascades: 1,
+                    bias: Bias::Auto,
+                };
+                self.scenes.borrow_mut().insert(name, setting.clone());
+                setting
+            }
+        };
+        let Camera { position, target, .. } = own.camera;
+        let camera = Camera { position: target + (position - target) * shot.distance, ..own.camera };
+        let Shot { resolution, cascades, .. } = *shot;
+        Ok(Setting { camera, resolution, map_size: map, cascades, ..own })
     }
 
     /// Draws a shot with every technique of `specs`, maps being `map` texels wide.
@@ -154,22 +164,18 @@ impl<'a> Bench<'a> {
 
     fn drawn(&self, shot: Shot, map: u32, specs: &[&str], bias: Bias) -> Result<Study> {
         let key = ("study", shot, map, specs, bias.to_string());
-        let StudyFile { looks, left_out, view } =
+        let StudyFile { looks, left_out, views } =
             self.cache.memo(&key, || self.draw(&shot, map, specs, bias))?;
         let key = serde_json::to_string(&key)?;
-        Ok(Study { shot, map, looks, left_out, view, key })
+        Ok(Study { shot, map, looks, left_out, views, key })
     }
 
     fn draw(&self, shot: &Shot, map: u32, specs: &[&str], bias: Bias) -> Result<StudyFile> {
-        let (gpu, scene) = (&self.gpu, self.scene(shot.scene)?);
-        let techniques = parse(specs)?;
+        let gpu = &self.gpu;
+        let setting = Setting { bias, ..self.setting(shot, map)? };
         self.progress.step(&format!("prepare {} techniques on {}", specs.len(), shot.scene));
-        let mut stage = self.stage(shot, &scene)?;
-        let lighting = Lighting::new(gpu, &stage);
-        let (geometry, light) = (&scene.geometry, &scene.light);
-        let entries: Vec<_> = techniques.into_iter().map(|t| (t, bias)).collect();
-        let (entered, view) = compare::enter_biased(gpu, &mut stage, geometry, light, &entries, map)?;
-        let (contestants, left_out) = sound(entered);
+        let Setup { stage, lighting, contestants, left_out, views } = setting.set_up(gpu, &parse(specs)?)?;
+        let (contestants, left_out) = sound(Entered { contestants, left_out });
         let pictures = Pictures::new(gpu, &stage, &lighting)?;
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         stage.encode_surfaces(&mut encoder, None);
@@ -181,13 +187,7 @@ impl<'a> Bench<'a> {
             self.progress.share(i as f32 / specs.len() as f32);
             looks.push(look(gpu, &stage, (&lighting, &pictures), contestant, spec)?);
         }
-        let plane = compare::map_plane(&view);
-        let view = ViewFacts {
-            right: plane.right_per_texel.to_array(),
-            down: plane.down_per_texel.to_array(),
-            depth: view.depth_world,
-        };
-        Ok(StudyFile { looks, left_out, view })
+        Ok(StudyFile { looks, left_out, views: views.iter().map(ViewFacts::of).collect() })
     }
 
     /// Traces what a study's pictures ought to be. The scene's tree of triangles is built once for all
@@ -196,42 +196,34 @@ impl<'a> Bench<'a> {
     /// # Errors
     /// A lost device.
     pub fn truths(&self, study: &Study, truths: &[Truth]) -> Result<Vec<Traced>> {
-        let scene = self.scene(study.shot.scene)?;
-        let (geometry, light) = (&scene.geometry, &scene.light);
+        let setting = self.setting(&study.shot, study.map)?;
+        let light = &setting.light;
         let mut tracer = None;
-        let [width, height] = study.shot.resolution;
+        let [width, height] = setting.resolution;
         let mut traced = Vec::new();
         for truth in truths {
-            let view = matches!(truth, Truth::LightSpace(_)).then_some(study.view);
-            let key = ("truth", study.shot, truth, view);
+            let views = matches!(truth, Truth::LightSpace(_)).then_some((study.map, &study.views));
+            let key = ("truth", study.shot, truth, views);
             let file = self.cache.memo(&key, || {
                 self.progress.step(&format!("trace rays: {}, {}", study.shot.scene, name(*truth)));
                 let tracer = match &mut tracer {
                     Some(tracer) => tracer,
-                    none => none.insert(Tracer::new(geometry)?),
+                    none => none.insert(setting.tracer()?),
                 };
-                let rays = CameraRays::new(&camera(&study.shot, &scene), width, height)?;
+                let rays = setting.rays()?;
                 let report = |share| self.progress.share(share);
                 let seen = match truth {
                     Truth::Hard => tracer.hard(&rays, light),
                     Truth::LightSpace(kernel) => {
-                        let map = MapPlane {
-                            right_per_texel: DVec3::from(study.view.right),
-                            down_per_texel: DVec3::from(study.view.down),
-                        };
-                        tracer.light_space_ideal(
-                            &rays,
-                            light,
-                            &compare::ideal_kernel(*kernel)?,
-                            &map,
-                            &report,
-                        )
+                        let maps = setting.map_views(&study.views(), *kernel)?;
+                        let kernel = compare::ideal_kernel(*kernel)?;
+                        tracer.light_space_ideal(&rays, light, &kernel, &maps, &report)
                     }
                     Truth::ScreenSpace(grid) => tracer.supersampled(&rays, light, *grid, &report),
                 };
                 let plane = Plane::new(width, height, seen.values.clone())?;
                 Ok(TracedFile {
-                    picture: self.shade(&study.shot, &scene, &plane)?,
+                    picture: self.shade(&setting, &plane)?,
                     values: seen.values,
                     shadowable: seen.shadowable.into_iter().map(u8::from).collect(),
                 })
@@ -247,8 +239,8 @@ impl<'a> Bench<'a> {
     }
 
     /// The picture that a given visibility makes.
-    fn shade(&self, shot: &Shot, scene: &Loaded, visibility: &Plane) -> Result<Raster> {
-        let stage = self.stage(shot, scene)?;
+    fn shade(&self, setting: &Setting, visibility: &Plane) -> Result<Raster> {
+        let stage = setting.stage(&self.gpu)?;
         let lighting = Lighting::new(&self.gpu, &stage);
         lighting.write_visibility(&self.gpu, visibility);
         let pictures = Pictures::new(&self.gpu, &stage, &lighting)?;
@@ -290,16 +282,16 @@ impl<'a> Bench<'a> {
     pub fn regions(&self, study: &Study, near: f64) -> Result<BTreeMap<String, Vec<bool>>> {
         #[derive(Serialize, Deserialize)]
         struct Mask(#[serde(with = "packed")] Vec<u8>);
-        let key = ("regions", study.shot, study.view.depth, near);
+        let key = ("regions", study.shot, study.map, &study.views, near);
         let masks: BTreeMap<String, Mask> = self.cache.memo(&key, || {
-            let scene = self.scene(study.shot.scene)?;
+            let setting = self.setting(&study.shot, study.map)?;
             self.progress.step(&format!("trace rays: {}, regions", study.shot.scene));
-            let [width, height] = study.shot.resolution;
-            let tracer = Tracer::new(&scene.geometry)?;
-            let rays = CameraRays::new(&camera(&study.shot, &scene), width, height)?;
-            let shadowable = tracer.hard(&rays, &scene.light).shadowable;
-            let near = near * f64::from(study.view.depth);
-            let found = regions::regions(&tracer, &tracer.primary(&rays), &shadowable, &scene.light, near);
+            let (tracer, rays) = (setting.tracer()?, setting.rays()?);
+            let maps = setting.map_views(&study.views(), setting.kernel)?;
+            let shadowable = tracer.hard(&rays, &setting.light).shadowable;
+            let near = |point: DVec3| near * f64::from(maps.view(point).depth_world);
+            let hits = tracer.primary(&rays);
+            let found = regions::regions(&tracer, &hits, &shadowable, &setting.light, &near);
             let mask =
                 |r: regions::Region| (r.name.into(), Mask(r.pixels.into_iter().map(u8::from).collect()));
             Ok(found.into_iter().map(mask).collect())
@@ -317,9 +309,10 @@ impl<'a> Bench<'a> {
             bail!("a race of no rounds");
         }
         self.cache.memo(&("race", shot, entrants, rounds), || {
-            let (gpu, scene) = (&self.gpu, self.scene(shot.scene)?);
+            let gpu = &self.gpu;
             self.progress.step(&format!("prepare {} entrants on {}", entrants.len(), shot.scene));
-            let mut stage = self.stage(&shot, &scene)?;
+            let setting = self.setting(&shot, 1)?;
+            let mut stage = setting.stage(gpu)?;
             let lighting = Lighting::new(gpu, &stage);
             let mut groups: BTreeMap<u32, Vec<&str>> = BTreeMap::new();
             for (map, spec) in entrants.iter().filter(|e| e.1 != "none") {
@@ -328,8 +321,9 @@ impl<'a> Bench<'a> {
             let mut ready: BTreeMap<u32, std::vec::IntoIter<Contestant>> = BTreeMap::new();
             let mut views = Vec::new();
             for (map, specs) in groups {
-                let (entered, _) =
-                    compare::enter(gpu, &mut stage, &scene.geometry, &scene.light, &parse(&specs)?, map)?;
+                let sized = Setting { map_size: map, ..setting.clone() };
+                let entries = sized.entries(&parse(&specs)?);
+                let (entered, _) = sized.enter(gpu, &mut stage, &entries)?;
                 let (contestants, left_out) = sound(entered);
                 if !left_out.is_empty() {
                     return Err(Refused(left_out).into());
@@ -342,7 +336,7 @@ impl<'a> Bench<'a> {
                 ready.insert(map, contestants.into_iter());
             }
             // One size after the other has set its own.
-            stage.set_views(gpu, &views);
+            stage.set_views(gpu, &views)?;
             let unshadowed = Lookup::unshadowed(gpu, &stage);
             let runners: Vec<Option<Contestant>> = entrants
                 .iter()
@@ -375,19 +369,12 @@ impl<'a> Bench<'a> {
             (false, _) => [frames, until],
         };
         self.cache.memo(&("moving", shot, path.name(), [frames, until], map, specs), || {
-            let scene = self.scene(shot.scene)?;
             let request = flicker::Request {
-                scene: shot.scene.into(),
-                geometry: scene.geometry.clone(),
-                camera: camera(&shot, &scene),
-                light: scene.light,
+                setting: self.setting(&shot, map)?,
                 path,
                 frames,
                 until,
                 techniques: parse(specs)?,
-                map_size: map,
-                kernel: 5,
-                resolution: shot.resolution,
                 stride: 8,
                 grid: 4,
                 command: Vec::new(),
@@ -428,19 +415,20 @@ impl<'a> Bench<'a> {
     /// As [`study`](Self::study).
     pub fn sheet(&self, shot: Shot, map: u32, spec: &str) -> Result<Raster> {
         self.cache.memo(&("sheet", shot, map, spec), || {
-            let (gpu, scene) = (&self.gpu, self.scene(shot.scene)?);
+            let gpu = &self.gpu;
             self.progress.step(&format!("maps of {spec} on {}", shot.scene));
-            let mut stage = self.stage(&shot, &scene)?;
-            let techniques = parse(&[spec])?;
-            let (entered, view) =
-                compare::enter(gpu, &mut stage, &scene.geometry, &scene.light, &techniques, map)?;
-            let contestant = entered.contestants.first().context("no technique")?;
+            let setup = self.setting(&shot, map)?.set_up(gpu, &parse(&[spec])?)?;
+            let Setup { mut stage, contestants, views, .. } = setup;
+            let contestant = contestants.first().context("no technique")?;
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
             let shadows = &contestant.shadows;
             shadows.encode(&mut encoder, |view, pass| stage.draw_casters(&contestant.casters, view, pass))?;
             gpu.finish(encoder)?;
             let mut sheet = Sheet::default();
-            sheet.add(&maps::depth(gpu, &mut stage, &view, [map; 2])?);
+            for (number, view) in views.iter().enumerate() {
+                let name = maps::cascade_prefix(&views, number) + "depth";
+                sheet.add(&maps::depth(gpu, &mut stage, view, [map; 2], &name)?);
+            }
             maps::pictures(gpu, shadows, 0, &mut |picture| {
                 sheet.add(&picture);
                 Ok(())
@@ -491,11 +479,6 @@ fn look(
         memory: compare::memory(&shadows.memory()),
         work: compare::work(shadows),
     })
-}
-
-fn camera(shot: &Shot, scene: &Loaded) -> Camera {
-    let own = scene.camera;
-    Camera { position: own.target + (own.position - own.target) * shot.distance, ..own }
 }
 
 fn name(truth: Truth) -> String {

@@ -1,7 +1,7 @@
 //! What is asked and what is answered: shots, studies of them, truths.
 
 use crate::{cache::packed, page::Tile, raster::Raster};
-use antumbra::technique;
+use antumbra::{View, technique};
 use antumbra_lab::{
     classes::ClassShare,
     flicker::{self, TechniqueFlicker},
@@ -9,6 +9,7 @@ use antumbra_lab::{
     results::{LeftOut, MemoryResult, Refused, Work},
 };
 use anyhow::{Context, Result};
+use glam::{Mat4, Vec4};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -19,6 +20,8 @@ pub struct Shot<S = &'static str> {
     pub scene: S,
     /// How far the camera is from its target, in the distances of the scene's own camera.
     pub distance: f32,
+    /// Most views of a sun.
+    pub cascades: u32,
     /// Pixels across and down.
     pub resolution: [u32; 2],
 }
@@ -28,6 +31,12 @@ impl Shot {
     #[must_use]
     pub fn from(self, distance: f32) -> Self {
         Self { distance, ..self }
+    }
+
+    /// The same with that many views of a sun.
+    #[must_use]
+    pub fn cascades(self, cascades: u32) -> Self {
+        Self { cascades, ..self }
     }
 }
 
@@ -63,16 +72,43 @@ pub struct Study {
     pub looks: Vec<Look>,
     /// Techniques that were asked for and are not among the looks: refused, or invalid.
     pub left_out: Vec<LeftOut>,
-    pub(crate) view: ViewFacts,
+    pub(crate) views: Vec<ViewFacts>,
     pub(crate) key: String,
 }
 
-/// What truths need to know of the light's view.
+/// One of the light's views, as the cache keeps it.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 pub(crate) struct ViewFacts {
-    pub(crate) right: [f64; 3],
-    pub(crate) down: [f64; 3],
-    pub(crate) depth: f32,
+    clip_from_world: [f32; 16],
+    depth_plane: [f32; 4],
+    to_light: [f32; 4],
+    texel_world: f32,
+    near_over_far: f32,
+    depth_world: f32,
+}
+
+impl ViewFacts {
+    pub(crate) fn of(view: &View) -> Self {
+        Self {
+            clip_from_world: view.clip_from_world.to_cols_array(),
+            depth_plane: view.depth_plane.to_array(),
+            to_light: view.to_light.to_array(),
+            texel_world: view.texel_world,
+            near_over_far: view.near_over_far,
+            depth_world: view.depth_world,
+        }
+    }
+
+    fn view(&self) -> View {
+        View {
+            clip_from_world: Mat4::from_cols_array(&self.clip_from_world),
+            depth_plane: Vec4::from_array(self.depth_plane),
+            to_light: Vec4::from_array(self.to_light),
+            texel_world: self.texel_world,
+            near_over_far: self.near_over_far,
+            depth_world: self.depth_world,
+        }
+    }
 }
 
 /// What is right, by which question.
@@ -158,7 +194,7 @@ pub(crate) struct TracedFile {
 pub(crate) struct StudyFile {
     pub(crate) looks: Vec<Look>,
     pub(crate) left_out: Vec<LeftOut>,
-    pub(crate) view: ViewFacts,
+    pub(crate) views: Vec<ViewFacts>,
 }
 
 impl Look {
@@ -179,6 +215,12 @@ impl Look {
 }
 
 impl Study {
+    /// The light's views, the same for all techniques.
+    #[must_use]
+    pub fn views(&self) -> Vec<View> {
+        self.views.iter().map(ViewFacts::view).collect()
+    }
+
     /// The look of a technique, by the spec it was asked for.
     ///
     /// # Errors

@@ -26,7 +26,7 @@
 use crate::body::Bodies;
 use crate::kernel::scramble;
 use crate::shadow::{Progress, is_shadowable, to_light};
-use crate::{CameraRays, Hit, Kernel, MapPlane, Tracer, Visibility};
+use crate::{CameraRays, Hit, Kernel, MapPlane, MapPlanes, Tracer, Visibility};
 use antumbra_scene::Light;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -127,7 +127,7 @@ struct Ideal<'a> {
     tracer: &'a Tracer<'a>,
     light: &'a Light,
     kernel: &'a Kernel,
-    plane: &'a MapPlane,
+    planes: &'a dyn MapPlanes,
     bodies: &'a Bodies,
 }
 
@@ -138,7 +138,8 @@ impl Ideal<'_> {
         if !is_shadowable(self.light, hit) {
             return None;
         }
-        let footprint = Footprint::new(self.light, self.plane, self.kernel.reach(), hit);
+        let footprint =
+            Footprint::new(self.light, &self.planes.plane(hit.position), self.kernel.reach(), hit);
         let scramble = scramble(number);
         let of = range.end - range.start;
         let lit = range
@@ -174,7 +175,7 @@ fn mean(tallies: [Option<Tally>; 2]) -> Option<f32> {
 
 impl Tracer<'_> {
     /// The light-space ideal of a filter: visibility averaged over `kernel`, laid out in the map as
-    /// `plane` says, with the caster depth from rays; see the [crate's page](crate#the-light-space-ideal).
+    /// `planes` says where the pixel's point is, with the caster depth from rays; see the [crate's page](crate#the-light-space-ideal).
     ///
     /// Every pixel gets 64 rays, spread evenly over the kernel; one whose rays disagree, or that has
     /// such a neighbour, gets 256. In penumbrae the root mean square error is then about 0.005 (measured
@@ -188,10 +189,10 @@ impl Tracer<'_> {
         rays: &CameraRays,
         light: &Light,
         kernel: &Kernel,
-        plane: &MapPlane,
+        planes: &dyn MapPlanes,
         progress: &(dyn Fn(f32) + Sync),
     ) -> Visibility {
-        let ideal = Ideal { tracer: self, light, kernel, plane, bodies: self.bodies() };
+        let ideal = Ideal { tracer: self, light, kernel, planes, bodies: self.bodies() };
         let hit = |pixel| self.trace(&rays.center_ray(pixel));
         let width = rays.width() as usize;
         let rows = Progress::new(progress, 2 * rays.height() as usize);
@@ -226,9 +227,9 @@ impl Tracer<'_> {
         hits: &[Hit],
         light: &Light,
         kernel: &Kernel,
-        plane: &MapPlane,
+        planes: &dyn MapPlanes,
     ) -> Vec<Option<f32>> {
-        let ideal = Ideal { tracer: self, light, kernel, plane, bodies: self.bodies() };
+        let ideal = Ideal { tracer: self, light, kernel, planes, bodies: self.bodies() };
         hits.par_iter()
             .enumerate()
             .with_min_len(64)

@@ -117,6 +117,18 @@ pub struct MapPlane {
     pub down_per_texel: DVec3,
 }
 
+/// Which map shades a point in the world: one for all, or one of several cascades.
+pub trait MapPlanes: Sync {
+    /// How the texels of that map lie.
+    fn plane(&self, point: DVec3) -> MapPlane;
+}
+
+impl MapPlanes for MapPlane {
+    fn plane(&self, _: DVec3) -> MapPlane {
+        *self
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,11 +1,7 @@
 //! `antumbra bias`: acne against detached shadows.
 
 use super::table;
-use crate::{
-    arguments::{Bias, SceneArguments},
-    progress::Bar,
-    scene, techniques,
-};
+use crate::{arguments::Bias, progress::Bar, scene, techniques};
 use antumbra_lab::{
     bias::{self, Request},
     gpu::Gpu,
@@ -15,34 +11,15 @@ use serde_json::json;
 use std::io::{self, Write};
 
 pub(crate) fn run(arguments: &Bias) -> Result<()> {
-    let scene = |name: &String| SceneArguments {
-        scene: name.clone(),
-        seed: arguments.seed,
-        camera: arguments.camera.clone(),
-        light: arguments.light.clone(),
-        resolution: arguments.resolution.clone(),
-        size: arguments.size,
-        kernel: arguments.kernel,
-        file: arguments.file.clone(),
-    };
-    let scenes: Vec<SceneArguments> = arguments.scenes.iter().map(scene).collect();
-    scenes.iter().try_for_each(scene::check)?;
-    let techniques = techniques::read(&arguments.techniques, arguments.kernel)?;
+    scene::check_view(&arguments.view)?;
+    let techniques = techniques::read(&arguments.techniques, arguments.view.kernel)?;
     let settings: Vec<_> = arguments.settings.iter().map(|text| text.parse()).collect::<Result<_, _>>()?;
     let gpu = Gpu::new()?;
     let out = &mut io::stdout();
     let mut all = serde_json::Map::new();
-    for arguments_of_scene in &scenes {
-        let setting = scene::load(arguments_of_scene)?;
-        let request = Request {
-            geometry: &setting.geometry,
-            camera: &setting.camera,
-            light: &setting.light,
-            techniques: &techniques,
-            settings: &settings,
-            map_size: arguments.size,
-            resolution: setting.resolution,
-        };
+    for name in &arguments.scenes {
+        let setting = scene::load_view(name, &arguments.view)?;
+        let request = Request { setting: &setting, techniques: &techniques, settings: &settings };
         let bias::Study { rows, left_out } = {
             let bar = Bar::new([("upload", 1.0), ("truth", 8.0), ("render", 6.0)]);
             bias::study(&gpu, &request, &bar)?

@@ -10,8 +10,10 @@ use antumbra_lab::{
     compare::{self, Request},
     files,
     gpu::Gpu,
-    report,
+    metrics::FEWEST_DEEP,
+    report::{self, significant},
     results::{Results, TechniqueResult},
+    setting::Setting,
 };
 use anyhow::{Result, bail};
 use std::io::{self, Write};
@@ -25,25 +27,20 @@ pub(crate) fn run(arguments: &Compare) -> Result<()> {
     }
     scene::check(&arguments.scene)?;
     files::check_folder(&arguments.output)?;
-    let techniques = techniques::read(&arguments.techniques, arguments.scene.kernel)?;
+    let techniques = techniques::read(&arguments.techniques, arguments.scene.view.kernel)?;
     let setting = scene::load(&arguments.scene)?;
     let gpu = Gpu::new()?;
     let request = Request {
-        scene: setting.name,
-        geometry: setting.geometry,
-        camera: setting.camera,
-        light: setting.light,
+        setting,
         techniques,
-        map_size: arguments.scene.size,
-        kernel: arguments.scene.kernel,
-        resolution: setting.resolution,
         grid: arguments.grid,
         rounds: arguments.rounds,
         command: super::command_given(),
     };
     let comparison = {
         let work = (request.techniques.len(), request.rounds);
-        let phases = progress::comparison(&gpu, request.resolution, (request.kernel, request.grid), work);
+        let Setting { resolution, kernel, .. } = request.setting;
+        let phases = progress::comparison(&gpu, resolution, (kernel, request.grid), work);
         let bar = Bar::new(phases);
         compare::compare(&gpu, &request, &bar)?
     };
@@ -98,6 +95,10 @@ fn print(out: &mut impl Write, results: &Results) -> Result<()> {
         results.kernel_texels,
         100.0 * truth.coverage_agreement,
     )?;
+    let deep = |mean: Option<f64>, pixels: u64| match mean {
+        Some(mean) => format!("{:.2}", 100.0 * mean),
+        None => format!("– ({pixels})"),
+    };
     let percent = |v: Option<f64>| v.map_or("-".into(), |v| format!("{:.2}", 100.0 * v));
     let work = |value: Option<f64>| value.map_or("-".into(), |v| v.to_string());
     let row = |t: &TechniqueResult| {
@@ -108,8 +109,8 @@ fn print(out: &mut impl Write, results: &Results) -> Result<()> {
         vec![
             t.spec.clone(),
             format!("{:.4}", ideal.rmse),
-            percent(ideal.leak),
-            percent(ideal.over_darkening),
+            deep(ideal.leak, ideal.deep_shadow_pixels),
+            deep(ideal.over_darkening, ideal.deep_lit_pixels),
             percent(hard.acne),
             percent(Some(hard.pixel_match)),
             format!("{:.1}", t.time.frame.median_ms),
@@ -156,6 +157,16 @@ fn print(out: &mut impl Write, results: &Results) -> Result<()> {
                 100.0 * class.share
             )?;
         }
+    }
+    let few = |t: &&TechniqueResult| {
+        t.scores.light_space.leak.is_none() || t.scores.light_space.over_darkening.is_none()
+    };
+    if results.valid().any(|t| few(&t)) {
+        writeln!(out, "–: fewer than {FEWEST_DEEP} pixels, in brackets, lie deep enough in shadow or light")?;
+    }
+    if results.views.len() > 1 {
+        let texels: Vec<String> = results.views.iter().map(|v| significant(v.texel_world.into())).collect();
+        writeln!(out, "{} cascades with texels of {} world units", results.views.len(), texels.join(", "))?;
     }
     writeln!(
         out,

@@ -27,7 +27,7 @@ pub(crate) fn run(arguments: &Flicker) -> Result<()> {
     }
     scene::check(&arguments.scene)?;
     files::check_folder(&arguments.output)?;
-    let techniques = techniques::read(&arguments.techniques, arguments.scene.kernel)?;
+    let techniques = techniques::read(&arguments.techniques, arguments.scene.view.kernel)?;
     let setting = scene::load(&arguments.scene)?;
     let shorter = setting.resolution[0].min(setting.resolution[1]);
     if !(1..=shorter).contains(&arguments.stride) {
@@ -35,17 +35,11 @@ pub(crate) fn run(arguments: &Flicker) -> Result<()> {
     }
     let gpu = Gpu::new()?;
     let request = Request {
-        scene: setting.name,
-        geometry: setting.geometry,
-        camera: setting.camera,
-        light: setting.light,
+        setting,
         path: path(arguments.path),
         frames: arguments.frames,
         until: arguments.frames,
         techniques,
-        map_size: arguments.scene.size,
-        kernel: arguments.scene.kernel,
-        resolution: setting.resolution,
         stride: arguments.stride,
         grid: arguments.grid,
         command: super::command_given(),

@@ -2,7 +2,7 @@
 
 use super::table;
 use crate::{
-    arguments::{Kernels, SceneArguments},
+    arguments::{Kernels, ViewArguments},
     progress::{self, Bar},
     scene, techniques,
 };
@@ -10,6 +10,7 @@ use antumbra_lab::{
     compare::{self, Request},
     gpu::Gpu,
     results::{LeftOut, TechniqueResult},
+    setting::Setting,
     timing,
 };
 use anyhow::{Result, bail};
@@ -99,8 +100,9 @@ pub(crate) fn run(arguments: &Kernels) -> Result<()> {
     // Three texels suit every technique: what is refused here is wrong.
     techniques::read(&arguments.techniques, 3)?;
     for &kernel in &arguments.kernels {
-        scene::check(&SceneArguments { kernel, ..arguments.scene.clone() })?;
+        scene::check_view(&ViewArguments { kernel, ..arguments.scene.view.clone() })?;
     }
+    scene::check(&arguments.scene)?;
     let setting = scene::load(&arguments.scene)?;
     let gpu = Gpu::new()?;
     let widest = arguments.kernels.iter().copied().max().unwrap_or(1);
@@ -112,14 +114,8 @@ pub(crate) fn run(arguments: &Kernels) -> Result<()> {
         let takes = |spec: &&String| techniques::read(&[(*spec).clone()], kernel).is_ok();
         let specs: Vec<String> = arguments.techniques.iter().filter(takes).cloned().collect();
         let request = Request {
-            scene: setting.name.clone(),
-            geometry: setting.geometry.clone(),
-            camera: setting.camera,
-            light: setting.light,
+            setting: Setting { kernel, ..setting.clone() },
             techniques: techniques::read(&specs, kernel)?,
-            map_size: arguments.scene.size,
-            kernel,
-            resolution: setting.resolution,
             grid: arguments.grid,
             rounds: arguments.rounds,
             command: Vec::new(),

@@ -4,10 +4,10 @@ use super::table;
 use crate::{arguments::Maps, scene, techniques};
 use antumbra::technique;
 use antumbra_lab::{
-    compare, files,
+    files,
     gpu::Gpu,
     maps::{self, Picture, Sheet},
-    stage::Stage,
+    setting::Setup,
 };
 use anyhow::{Result, bail};
 use serde_json::{Value, json};
@@ -21,17 +21,15 @@ const SHEET: &str = "sheet.png";
 pub(crate) fn run(arguments: &Maps) -> Result<()> {
     scene::check(&arguments.scene)?;
     files::check_folder(&arguments.output)?;
-    let techniques = techniques::read(std::slice::from_ref(&arguments.technique), arguments.scene.kernel)?;
+    let techniques =
+        techniques::read(std::slice::from_ref(&arguments.technique), arguments.scene.view.kernel)?;
     if techniques.len() > 1 {
         bail!("--technique {}: maps takes one technique", arguments.technique);
     }
     let setting = scene::load(&arguments.scene)?;
     let gpu = Gpu::new()?;
-    let mut stage = Stage::new(&gpu, &setting.geometry, &setting.camera, &setting.light, setting.resolution)?;
-    let (geometry, light) = (&setting.geometry, &setting.light);
-    let (entered, view) =
-        compare::enter(&gpu, &mut stage, geometry, light, &techniques, arguments.scene.size)?;
-    let Some(contestant) = entered.contestants.first() else { bail!("no technique was named") };
+    let Setup { mut stage, contestants, views, .. } = setting.set_up(&gpu, &techniques)?;
+    let Some(contestant) = contestants.first() else { bail!("no technique was named") };
     let shadows = &contestant.shadows;
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     shadows.encode(&mut encoder, |view, pass| stage.draw_casters(&contestant.casters, view, pass))?;
@@ -46,7 +44,10 @@ pub(crate) fn run(arguments: &Maps) -> Result<()> {
             written.push((file, picture.scale, picture.range));
             Ok(())
         };
-        take(maps::depth(&gpu, &mut stage, &view, [arguments.scene.size; 2])?)?;
+        for (number, view) in views.iter().enumerate() {
+            let name = maps::cascade_prefix(&views, number) + "depth";
+            take(maps::depth(&gpu, &mut stage, view, [setting.map_size; 2], &name)?)?;
+        }
         maps::pictures(&gpu, shadows, arguments.level, &mut take)?;
         folder.write(SHEET, &sheet.image().to_png()?)?;
         let pictures: Vec<Value> = written
@@ -58,8 +59,10 @@ pub(crate) fn run(arguments: &Maps) -> Result<()> {
             "schema": "antumbra-maps/1",
             "scene": setting.name,
             "technique": technique::spec(shadows.technique()),
-            "size": arguments.scene.size,
+            "size": setting.map_size,
             "level": arguments.level,
+            "cascades": views.len(),
+            "bias": setting.bias.to_string(),
             "pictures": pictures,
             "files": names.collect::<Vec<_>>(),
         });

@@ -1,6 +1,5 @@
 //! Techniques made ready to be drawn on one stage.
 
-use super::view;
 use crate::{
     gpu::Gpu,
     lighting::{Lighting, Lookup},
@@ -11,7 +10,6 @@ use crate::{
     timing::Entrant,
 };
 use antumbra::{Capacity, Options, Pipelines, ShadowMap, Size, Technique, View, technique, technique::Bias};
-use antumbra_scene::{Geometry, Light};
 use anyhow::Result;
 
 /// A technique with all that drawing it takes.
@@ -131,49 +129,8 @@ impl Contestant {
     }
 }
 
-/// [`enter_biased`] with [`Bias::Auto`] for all.
-///
-/// # Errors
-/// As [`enter_biased`].
-pub fn enter(
-    gpu: &Gpu,
-    stage: &mut Stage,
-    geometry: &Geometry,
-    light: &Light,
-    techniques: &[Box<dyn Technique>],
-    map_size: u32,
-) -> Result<(Entered, View)> {
-    let entries: Vec<_> = techniques.iter().map(|t| (t.clone(), Bias::Auto)).collect();
-    enter_biased(gpu, stage, geometry, light, &entries, map_size)
-}
-
-/// [`contestants`] with the light's only view. Maps that keep triangles by id are drawn, so that they have
-/// memory for all of them.
-///
-/// # Errors
-/// As [`contestants`]; a light or camera without a view.
-pub fn enter_biased(
-    gpu: &Gpu,
-    stage: &mut Stage,
-    geometry: &Geometry,
-    light: &Light,
-    entries: &[(Box<dyn Technique>, Bias)],
-    map_size: u32,
-) -> Result<(Entered, View)> {
-    let mut entered = contestants(gpu, stage, entries, map_size)?;
-    let maps: Vec<&ShadowMap> = entered.contestants.iter().map(|c| &c.shadows).collect();
-    let view = view(stage, geometry, light, &maps)?;
-    aim(gpu, stage, &mut entered.contestants, &view)?;
-    for contestant in &mut entered.contestants {
-        if contestant.shadows.technique().caster().keeps_ids() {
-            contestant.draw_maps(gpu, stage)?;
-        }
-    }
-    Ok((entered, view))
-}
-
-/// A shadow map of `map_size` × `map_size` texels for every technique and its bias, sharing pipelines,
-/// without a view yet. Those that the device or the scene refuses are left out.
+/// A shadow map of `map_size` × `map_size` texels with room for `views` views for every technique and its bias,
+/// sharing pipelines, without a view yet. Those that the device or the scene refuses are left out.
 ///
 /// # Errors
 /// [`Refused`] where none is left.
@@ -182,11 +139,12 @@ pub fn contestants(
     stage: &Stage,
     entries: &[(Box<dyn Technique>, Bias)],
     map_size: u32,
+    views: u32,
 ) -> Result<Entered> {
     let pipelines = Pipelines::new(&gpu.device);
     let (mut contestants, mut left_out) = (Vec::with_capacity(entries.len()), Vec::new());
     for (entry, (technique, bias)) in entries.iter().enumerate() {
-        let options = Options::from(Size::square(map_size)).pipelines(&pipelines).bias(*bias);
+        let options = Options::from(Size::square(map_size)).views(views).pipelines(&pipelines).bias(*bias);
         let options = options.capacity(stage.capacity());
         match Contestant::new(gpu, stage, technique.as_ref(), &options, entry) {
             Ok(contestant) => contestants.push(contestant),
@@ -200,20 +158,19 @@ pub fn contestants(
     Ok(Entered { contestants, left_out })
 }
 
-/// Gives all contestants a view, and the stage the views that they draw casters for.
+/// Gives all contestants the light's views, and the stage the views that they draw casters for.
 ///
 /// # Errors
-/// Never for one view: every map has room for that.
-pub fn aim(gpu: &Gpu, stage: &mut Stage, contestants: &mut [Contestant], view: &View) -> Result<()> {
+/// More views than the maps have room for, or than the stage has ([`Stage::MOST_VIEWS`]).
+pub fn aim(gpu: &Gpu, stage: &mut Stage, contestants: &mut [Contestant], views: &[View]) -> Result<()> {
     let mut caster_views = Vec::new();
     for contestant in contestants {
-        contestant.shadows.prepare(&gpu.queue, &[*view])?;
+        contestant.shadows.prepare(&gpu.queue, views)?;
         for view in contestant.shadows.caster_views() {
             if !caster_views.contains(view) {
                 caster_views.push(*view);
             }
         }
     }
-    stage.set_views(gpu, &caster_views);
-    Ok(())
+    stage.set_views(gpu, &caster_views)
 }

@@ -1,14 +1,15 @@
 //! What the results say of techniques, scene and machine.
 
-use super::{Contestant, Rendered, Request};
+use super::{Contestant, Rendered};
 use crate::{
     gpu::Gpu,
     results::{
         AdapterFacts, BoundsFacts, CameraFacts, Family, LensFacts, Lifetime, LightFacts, MemoryItem,
-        MemoryResult, SceneFacts, TechniqueResult, TimeResult, Work,
+        MemoryResult, SceneFacts, TechniqueResult, TimeResult, ViewFacts, Work,
     },
+    setting::Setting,
 };
-use antumbra::{Memory, ShadowMap, technique};
+use antumbra::{Memory, ShadowMap, View, technique};
 use antumbra_scene::{Light, Projection};
 use anyhow::{Context, Result};
 
@@ -23,11 +24,7 @@ pub(super) fn technique(contestant: &Contestant, rendered: Rendered, time: TimeR
         name: page.name.into(),
         spec: technique::spec(shadows.technique()),
         title: page.title.into(),
-        family: match page.family {
-            technique::Family::Comparison => Family::Comparison,
-            technique::Family::Basis => Family::Basis,
-            technique::Family::Geometry => Family::Geometry,
-        },
+        family: family(page.family),
         paper: page.paper.into(),
         settings,
         scores,
@@ -105,13 +102,13 @@ fn value(text: &str) -> serde_json::Value {
 }
 
 /// What was rendered.
-pub(super) fn scene(request: &Request) -> Result<SceneFacts> {
-    let bounds = request.geometry.bounds().context("the scene has no triangles")?;
-    let camera = &request.camera;
+pub(crate) fn scene(setting: &Setting) -> Result<SceneFacts> {
+    let bounds = setting.geometry.bounds().context("the scene has no triangles")?;
+    let camera = &setting.camera;
     Ok(SceneFacts {
-        name: request.scene.clone(),
-        triangles: request.geometry.triangle_count() as u64,
-        light: match request.light {
+        name: setting.name.clone(),
+        triangles: setting.geometry.triangle_count() as u64,
+        light: match setting.light {
             Light::Directional { direction } => LightFacts::Directional { direction: direction.to_array() },
             Light::Spot { position, direction, outer_angle } => LightFacts::Spot {
                 position: position.to_array(),
@@ -128,9 +125,24 @@ pub(super) fn scene(request: &Request) -> Result<SceneFacts> {
                 Projection::Orthographic { height } => LensFacts::Height(height),
             },
         },
-        origin: request.geometry.placement.origin.to_array(),
+        origin: setting.geometry.placement.origin.to_array(),
         bounds: BoundsFacts { min: bounds.min.to_array(), max: bounds.max.to_array() },
     })
+}
+
+/// The light's views.
+pub(crate) fn views(views: &[View]) -> Vec<ViewFacts> {
+    let facts = |v: &View| ViewFacts { texel_world: v.texel_world, depth_world: v.depth_world };
+    views.iter().map(facts).collect()
+}
+
+/// As results name it.
+pub(crate) fn family(family: technique::Family) -> Family {
+    match family {
+        technique::Family::Comparison => Family::Comparison,
+        technique::Family::Basis => Family::Basis,
+        technique::Family::Geometry => Family::Geometry,
+    }
 }
 
 /// What a GPU says of itself.

@@ -1,6 +1,6 @@
 //! The truths of a comparison, and the parts of the picture that are scored on their own.
 
-use super::{Progress, Request, ideal_kernel, map_plane};
+use super::{Progress, Request, ideal_kernel};
 use crate::{
     gpu::Gpu,
     metrics,
@@ -10,8 +10,9 @@ use crate::{
     stage::Stage,
 };
 use antumbra::View;
-use antumbra_truth::{CameraRays, Coverage, CoverageTolerance, Hit, Tracer, Visibility};
+use antumbra_truth::{Coverage, CoverageTolerance, Hit, Visibility};
 use anyhow::Result;
+use glam::DVec3;
 use std::{collections::BTreeMap, time::Instant};
 
 /// Truths and masks.
@@ -43,16 +44,17 @@ pub(super) fn trace(
     gpu: &Gpu,
     request: &Request,
     stage: &Stage,
-    view: &View,
+    views: &[View],
     progress: &dyn Progress,
     images: &mut BTreeMap<String, Vec<u8>>,
 ) -> Result<Truths> {
-    let [width, height] = request.resolution;
-    let (light, geometry) = (&request.light, &request.geometry);
+    let setting = &request.setting;
+    let (light, geometry) = (&setting.light, &setting.geometry);
+    let maps = setting.map_views(views, setting.kernel)?;
     let mut clock = Clock::start();
     progress.step("truth: build");
-    let tracer = Tracer::new(geometry)?;
-    let rays = CameraRays::new(&request.camera, width, height)?;
+    let tracer = setting.tracer()?;
+    let rays = setting.rays()?;
     let seconds_build = clock.lap();
     progress.step("truth: hard");
     let hard = tracer.hard(&rays, light);
@@ -62,13 +64,12 @@ pub(super) fn trace(
     let coverage =
         tracer.coverage(&rays, &hits, &stage.triangle_numbers(gpu, geometry)?, CoverageTolerance::default());
     // A twentieth of the depth range: wider than the ramp of a 16-term Fourier series.
-    let near = 0.05 * f64::from(view.depth_world);
-    let regions = regions(&tracer, &hits, &hard.shadowable, light, near);
+    let near = |point: DVec3| 0.05 * f64::from(maps.view(point).depth_world);
+    let regions = regions(&tracer, &hits, &hard.shadowable, light, &near);
     progress.step("truth: light-space ideal");
     clock.lap();
-    let kernel = ideal_kernel(request.kernel)?;
-    let light_space =
-        tracer.light_space_ideal(&rays, light, &kernel, &map_plane(view), &|s| progress.share(s));
+    let kernel = ideal_kernel(setting.kernel)?;
+    let light_space = tracer.light_space_ideal(&rays, light, &kernel, &maps, &|s| progress.share(s));
     let seconds_light_space = clock.lap();
     progress.step("truth: screen-space ideal");
     let screen_space = tracer.supersampled(&rays, light, request.grid, &|s| progress.share(s));
@@ -88,7 +89,7 @@ pub(super) fn trace(
         coverage_agreement: coverage.agreement(),
         coverage_explained: coverage_explained(&coverage, &hits),
         shadowable_pixels: hard.shadowable.iter().filter(|s| **s).count() as u64,
-        no_shadow: metrics::no_shadow_baseline(&hard.plane, &hard.shadowable)?,
+        no_shadow: metrics::no_shadow_baseline(&hard.plane, &hard.shadowable)?.heard(),
         images: TruthImages {
             hard: save("hard", &hard)?,
             light_space: save("light-space", &light_space)?,

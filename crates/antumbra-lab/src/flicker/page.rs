@@ -96,7 +96,9 @@ fn facts(results: &Results) -> String {
         format!("{0} × {0} texel kernel", results.kernel_texels),
         format!("{} triangles", text::count(results.triangles)),
     ];
-    facts.iter().map(|fact| format!("<li>{}</li>", escape(fact))).collect()
+    let cascades = (results.cascades > 1).then(|| format!("{} cascades", results.cascades));
+    let bias = Some(&results.bias).filter(|b| !b.is_empty() && *b != "auto").map(|b| format!("bias {b}"));
+    facts.iter().chain(&cascades).chain(&bias).map(|fact| format!("<li>{}</li>", escape(fact))).collect()
 }
 
 /// In thousandths, so that columns can be read: 12.3.

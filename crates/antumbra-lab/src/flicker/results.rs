@@ -123,6 +123,12 @@ pub struct Results {
     pub map_size: u32,
     /// Kernel width of the light-space ideal, texels.
     pub kernel_texels: u32,
+    /// Most views (cascades) of the light. Added later.
+    #[serde(default)]
+    pub cascades: u32,
+    /// The bias of every technique. Added later.
+    #[serde(default)]
+    pub bias: String,
     /// Pixels from one that was asked for the ideals to the next.
     pub stride: u32,
     /// What drew it.

@@ -1,11 +1,7 @@
 //! What is right in each frame, and at the points of the frame before.
 
 use super::{Promise, Request};
-use crate::{
-    compare::{ideal_kernel, map_plane},
-    motion::Frame,
-};
-use antumbra::View;
+use crate::{compare::ideal_kernel, motion::Frame, views::MapViews};
 use antumbra_truth::{CameraRays, Hit, Tracer};
 use anyhow::{Result, bail};
 use glam::Vec3;
@@ -44,7 +40,7 @@ pub(super) struct Truths<'a> {
 
 impl<'a> Truths<'a> {
     pub(super) fn new(tracer: &'a Tracer<'a>, request: &Request) -> Result<Self> {
-        let [width, height] = request.resolution;
+        let [width, height] = request.setting.resolution;
         if !(1..=width.min(height)).contains(&request.stride) {
             bail!(
                 "a stride of {} pixels: allowed are 1 to {}, the shorter side of the picture",
@@ -58,8 +54,8 @@ impl<'a> Truths<'a> {
         let chosen = rows.flat_map(|y| (first..width).step_by(step).map(move |x| (y * width + x) as usize));
         Ok(Self {
             tracer,
-            resolution: request.resolution,
-            kernel: ideal_kernel(request.kernel)?,
+            resolution: request.setting.resolution,
+            kernel: ideal_kernel(request.setting.kernel)?,
             grid: request.grid,
             chosen: chosen.collect(),
         })
@@ -76,7 +72,7 @@ impl<'a> Truths<'a> {
     }
 
     /// What is right in a frame; `drawn` is where the rasteriser's surfaces are, relative to the eye.
-    pub(super) fn right(&self, frame: &Frame, view: &View, drawn: &[Option<Vec3>]) -> Result<Right> {
+    pub(super) fn right(&self, frame: &Frame, maps: &MapViews, drawn: &[Option<Vec3>]) -> Result<Right> {
         let [width, height] = self.resolution;
         let rays = CameraRays::new(&frame.camera, width, height)?;
         let hits = self.tracer.primary(&rays);
@@ -91,18 +87,18 @@ impl<'a> Truths<'a> {
         };
         let agrees = hits.iter().zip(drawn).map(same).collect();
         let screen_space = self.tracer.supersampled_at(&rays, &self.chosen, &frame.light, self.grid);
-        Ok(self.under(frame, view, hits, agrees, screen_space))
+        Ok(self.under(frame, maps, hits, agrees, screen_space))
     }
 
     /// What is right at the points of another frame under this frame's light. There is no screen there.
-    pub(super) fn right_at(&self, points: &Right, frame: &Frame, view: &View) -> Right {
-        self.under(frame, view, points.hits.clone(), points.agrees.clone(), points.screen_space.clone())
+    pub(super) fn right_at(&self, points: &Right, frame: &Frame, maps: &MapViews) -> Right {
+        self.under(frame, maps, points.hits.clone(), points.agrees.clone(), points.screen_space.clone())
     }
 
     fn under(
         &self,
         frame: &Frame,
-        view: &View,
+        maps: &MapViews,
         hits: Vec<Hit>,
         agrees: Vec<bool>,
         mut screen_space: Vec<Option<f32>>,
@@ -116,12 +112,8 @@ impl<'a> Truths<'a> {
         };
         let mut hard = self.tracer.hard_at(&hits, &frame.light);
         drop(&mut hard, &agrees);
-        let mut light_space = self.tracer.light_space_ideal_at(
-            &self.chosen(&hits),
-            &frame.light,
-            &self.kernel,
-            &map_plane(view),
-        );
+        let mut light_space =
+            self.tracer.light_space_ideal_at(&self.chosen(&hits), &frame.light, &self.kernel, maps);
         let chosen = self.chosen(&agrees);
         drop(&mut light_space, &chosen);
         // A pixel whose centre is not shadowable may have a shadowable corner: what is asked is the centre.

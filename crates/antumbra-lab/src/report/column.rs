@@ -17,6 +17,8 @@ pub(super) struct Column {
     pub(super) meaning: &'static str,
     pub(super) better: Better,
     pub(super) value: fn(&TechniqueResult) -> Option<f64>,
+    /// Pixels that the value is the mean over, told where they are too few for one.
+    pub(super) pixels: Option<fn(&TechniqueResult) -> u64>,
     pub(super) format: fn(f64) -> String,
 }
 
@@ -72,10 +74,13 @@ impl Column {
         meaning: &'static str,
         value: fn(&TechniqueResult) -> Option<f64>,
     ) -> Self {
-        Self { group, label, meaning, better: Better::Lower, value, format: four_digits }
+        Self { group, label, meaning, better: Better::Lower, value, pixels: None, format: four_digits }
     }
     const fn higher(self) -> Self {
         Self { better: Better::Higher, ..self }
+    }
+    const fn over(self, pixels: fn(&TechniqueResult) -> u64) -> Self {
+        Self { pixels: Some(pixels), ..self }
     }
     const fn shown(self, format: fn(f64) -> String) -> Self {
         Self { format, ..self }
@@ -95,8 +100,9 @@ fn light_space() -> Vec<Column> {
         column("PSNR dB", PSNR, |t| t.scores.light_space.psnr).higher().shown(|v| format!("{v:.1}")),
         column("SSIM", SSIM, |t| Some(t.scores.light_space.ssim)).higher(),
         column("ꟻLIP", FLIP, |t| Some(t.scores.light_space.flip)),
-        column("Leak", LEAK, |t| t.scores.light_space.leak),
-        column("Over-dark", OVER_DARKENING, |t| t.scores.light_space.over_darkening),
+        column("Leak", LEAK, |t| t.scores.light_space.leak).over(|t| t.scores.light_space.deep_shadow_pixels),
+        column("Over-dark", OVER_DARKENING, |t| t.scores.light_space.over_darkening)
+            .over(|t| t.scores.light_space.deep_lit_pixels),
     ]
 }
 
@@ -107,7 +113,7 @@ fn hard() -> Vec<Column> {
         column("Edges %", EDGES, |t| t.scores.hard.pixel_match_near_edges).higher().shown(percent),
         column("RMSE", RMSE, |t| Some(t.scores.hard.rmse)),
         column("Acne %", ACNE, |t| t.scores.hard.acne).shown(percent),
-        column("Leak", LEAK, |t| t.scores.hard.leak),
+        column("Leak", LEAK, |t| t.scores.hard.leak).over(|t| t.scores.hard.deep_shadow_pixels),
     ]
 }
 

@@ -59,6 +59,9 @@ fn description(pairs: &[(&str, String)]) -> String {
 /// What was rendered, in one line.
 pub(super) fn facts(results: &Results) -> String {
     let [w, h] = results.resolution;
+    let views = results.views.len();
+    let cascades = (views > 1).then(|| format!("{views} cascades"));
+    let bias = Some(&results.bias).filter(|b| !b.is_empty() && *b != "auto").map(|b| format!("bias {b}"));
     let facts = [
         format!("{} techniques", results.techniques.len()),
         format!("{w} × {h} pixels"),
@@ -67,7 +70,7 @@ pub(super) fn facts(results: &Results) -> String {
         format!("{} triangles", count(results.scene.triangles)),
         results.adapter.name.clone(),
     ];
-    facts.iter().map(|fact| format!("<li>{}</li>", escape(fact))).collect()
+    facts.iter().chain(&cascades).chain(&bias).map(|fact| format!("<li>{}</li>", escape(fact))).collect()
 }
 
 /// How the truth was made and whether raster and rays agree.
@@ -220,11 +223,11 @@ pub(super) fn definitions() -> String {
         ),
         (
             "Leak",
-            "Mean v over pixels that are fully shadowed in truth and at least 4 pixels from any that is not.",
+            "Mean v over pixels that are fully shadowed in truth and at least 4 pixels from any that is not. Over fewer than 400 such pixels one small spot would decide: then – and their number.",
         ),
         (
             "Over-darkening",
-            "Mean 1 − v over pixels that are fully lit in truth and at least 4 pixels from any that is not.",
+            "Mean 1 − v over pixels that are fully lit in truth and at least 4 pixels from any that is not; of fewer than 400 their number alone.",
         ),
         ("Acne", "Share of pixels that are fully lit in truth and answered shadowed."),
         (

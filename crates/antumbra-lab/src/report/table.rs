@@ -3,7 +3,7 @@
 use super::column::{self, Better, Column};
 use super::text::{escape, percent, significant};
 use crate::classes::ClassShare;
-use crate::metrics::Score;
+use crate::metrics::{FEWEST_DEEP, Score};
 use crate::results::{Family, LeftOut, Results, TechniqueResult};
 use std::collections::BTreeSet;
 
@@ -124,7 +124,10 @@ fn best_of(results: &Results, column: &Column) -> Option<f64> {
 fn cell(column: &Column, technique: &TechniqueResult, best: Option<f64>) -> String {
     let starts = if starts_group(column) { " starts" } else { "" };
     let Some(value) = (column.value)(technique) else {
-        return format!("<td class=\"none{starts}\"><span aria-label=\"none\">–</span></td>");
+        return match column.pixels {
+            Some(pixels) => format!("<td class=\"none{starts}\">{}</td>", too_few(pixels(technique))),
+            None => format!("<td class=\"none{starts}\"><span aria-label=\"none\">–</span></td>"),
+        };
     };
     let shown = (column.format)(value);
     // What is printed alike is equally good.
@@ -134,6 +137,13 @@ fn cell(column: &Column, technique: &TechniqueResult, best: Option<f64>) -> Stri
     } else {
         format!("<td class=\"{}\" data-value=\"{value}\">{shown}</td>", starts.trim())
     }
+}
+
+/// In place of a mean over too few pixels: how many there are.
+fn too_few(pixels: u64) -> String {
+    format!(
+        "<span title=\"only {pixels} pixels; told from {FEWEST_DEEP} on\">– <small>({pixels})</small></span>"
+    )
 }
 
 fn starts_group(column: &Column) -> bool {
@@ -156,7 +166,11 @@ fn baseline(columns: &[Column], score: &Score) -> String {
                 _ => None,
             };
             let starts = if starts_group(column) { " class=\"starts\"" } else { "" };
-            format!("<td{starts}>{}</td>", value.map_or_else(String::new, column.format))
+            let shown = match (column.group, column.label, value) {
+                (column::HARD, "Leak", None) => too_few(score.deep_shadow_pixels),
+                _ => value.map_or_else(String::new, column.format),
+            };
+            format!("<td{starts}>{shown}</td>")
         })
         .collect();
     format!(
@@ -199,7 +213,7 @@ fn region_cells(score: Option<&Score>) -> String {
     format!(
         "<td class=\"starts\">{}</td><td>{}</td><td>{}</td>",
         shown(score.map(|s| s.rmse), column::four_digits),
-        shown(score.and_then(|s| s.leak), significant),
+        score.map_or("–".into(), |s| s.leak.map_or_else(|| too_few(s.deep_shadow_pixels), significant)),
         shown(score.and_then(|s| s.pixel_match_near_edges), percent),
     )
 }

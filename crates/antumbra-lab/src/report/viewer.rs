@@ -23,14 +23,18 @@ struct View<'a> {
     difference: Option<[&'a str; 2]>,
 }
 
-fn truths(results: &Results) -> [View<'_>; 3] {
+fn truths(results: &Results) -> Vec<View<'_>> {
     let images = &results.truth.images;
     let view = |label: &str, file| View { label: label.into(), file, difference: None };
+    let cascades = results.cascades.as_ref().map(|file| view("Cascades in colour", file));
     [
         view(column::LIGHT_SPACE, &images.light_space),
         view(column::HARD, &images.hard),
         view(column::SCREEN_SPACE, &images.screen_space),
     ]
+    .into_iter()
+    .chain(cascades)
+    .collect()
 }
 
 fn views<'a>(results: &'a Results, technique: &'a TechniqueResult) -> Vec<View<'a>> {

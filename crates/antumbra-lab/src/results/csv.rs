@@ -3,7 +3,7 @@
 use super::{Results, TechniqueResult};
 use crate::metrics::Score;
 
-const SCORE: [&str; 13] = [
+const SCORE: [&str; 15] = [
     "pixel_match",
     "pixel_match_near_edges",
     "rmse",
@@ -17,6 +17,8 @@ const SCORE: [&str; 13] = [
     "shadowable_pixels",
     "edge_pixels",
     "lit_pixels",
+    "deep_shadow_pixels",
+    "deep_lit_pixels",
 ];
 
 /// Columns before the numbers, which invalid techniques do not have.
@@ -78,6 +80,8 @@ fn score_cells(score: &Score) -> [String; SCORE.len()] {
         score.shadowable_pixels.to_string(),
         score.edge_pixels.to_string(),
         score.lit_pixels.to_string(),
+        score.deep_shadow_pixels.to_string(),
+        score.deep_lit_pixels.to_string(),
     ]
 }
 

@@ -5,12 +5,12 @@
 
 use antumbra::{Capacity, Kernel, Options, ShadowMap, Size, Technique, View, Weights, technique::Bias};
 use antumbra_lab::{
-    compare,
     gpu::Gpu,
     lighting::{Lighting, Lookup},
     metrics::{self, Score},
     plane::Plane,
     stage::{Casters, Stage},
+    views,
 };
 use antumbra_scene::{Camera, Geometry, Light, Scene};
 use antumbra_truth::{CameraRays, Coverage, CoverageTolerance, Tracer, Visibility};
@@ -77,7 +77,8 @@ impl Shot {
         let new = |t: &&dyn Technique| ShadowMap::new(&self.gpu.device, *t, options.clone()).unwrap();
         let mut maps: Vec<ShadowMap> = techniques.iter().map(new).collect();
         let all: Vec<&ShadowMap> = maps.iter().collect();
-        let view = compare::view(&self.stage, &self.geometry, &self.light, &all).unwrap();
+        let scene = self.geometry.bounds().unwrap();
+        let view = views::fit(self.stage.camera_matrix(), scene, &self.light, 1, &all).unwrap()[0];
         for map in &mut maps {
             map.prepare(&self.gpu.queue, &[view]).unwrap();
         }
@@ -86,7 +87,7 @@ impl Shot {
 
     /// What one of them answers for every pixel.
     pub(crate) fn visibility(&mut self, shadows: &ShadowMap) -> Plane {
-        self.stage.set_views(&self.gpu, shadows.caster_views());
+        self.stage.set_views(&self.gpu, shadows.caster_views()).unwrap();
         let lookup = Lookup::new(&self.gpu, &self.stage, shadows);
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         let casters = Casters::new(&self.gpu, &self.stage, shadows).unwrap();
@@ -111,7 +112,7 @@ impl Shot {
         let taps = Kernel::new(Weights::Gaussian, KERNEL, 0.0).taps;
         let kernel = antumbra_truth::Kernel::new(taps.iter().map(|w| f64::from(*w)).collect()).unwrap();
         let tracer = Tracer::new(&self.geometry).unwrap();
-        tracer.light_space_ideal(&self.rays(), &self.light, &kernel, &compare::map_plane(view), &|_| ())
+        tracer.light_space_ideal(&self.rays(), &self.light, &kernel, &views::map_plane(view), &|_| ())
     }
 }
 

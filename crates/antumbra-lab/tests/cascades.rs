@@ -1,0 +1,132 @@
+//! Cascades in the lab: shadows where one view of everything in sight has none, and an ideal that knows which
+//! map shades a pixel.
+
+#![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
+
+use antumbra::technique::Bias;
+use antumbra_lab::{
+    compare::{self, Comparison, Request, Silent},
+    gpu::Gpu,
+    metrics::FEWEST_DEEP,
+    setting::Setting,
+};
+use antumbra_scene::{Camera, Instance, Light, Material, Mesh, Projection, Scene};
+use antumbra_testing::Trials;
+use glam::{Mat4, Vec2, Vec3, Vec4};
+use std::sync::Arc;
+
+fn main() {
+    let mut trials = Trials::default();
+    trials.add("cascades_show_what_one_map_of_a_valley_loses", |gpu| {
+        let [one, four] = [1, 4].map(|cascades| run(gpu, &Setting { cascades, ..valley() }, &["evsm"]));
+        let scores = [&one, &four].map(|c| c.results.techniques[0].scores.hard);
+        let none = one.results.truth.no_shadow.rmse;
+        // With one view the posts are far thinner than its texels: hardly better than no shadow at all.
+        assert!(scores[0].rmse > 0.85 * none, "{} {none}", scores[0].rmse);
+        assert!(scores[1].rmse < 0.6 * none, "{} {none}", scores[1].rmse);
+        let texels: Vec<f32> = four.results.views.iter().map(|v| v.texel_world).collect();
+        assert!(texels.len() == 4 && texels.is_sorted() && texels[0] < 0.05 * texels[3], "{texels:?}");
+        assert_eq!(one.results.views.len(), 1);
+    });
+    trials.add("the_ideal_blurs_by_the_texels_of_each_pixel_s_own_map", |gpu| {
+        // Filtered comparison is the ideal but for the size of texels, which this map makes small everywhere.
+        let setting = Setting { map_size: 1024, cascades: 4, ..valley() };
+        let score = |setting: &Setting| run(gpu, setting, &["pcf"]).results.techniques[0].scores.light_space;
+        let rmse = score(&setting).rmse;
+        let errors = |comparison: &Comparison| comparison.results.techniques[0].scores.light_space.rmse;
+        // Negative control: the same map against the ideal of a kernel four times as wide.
+        let wide =
+            Request { setting: Setting { kernel: 17, ..setting.clone() }, ..request(&setting, &["pcf"]) };
+        let wrong = errors(&compare::compare(&adopt(gpu), &wide, &Silent).unwrap());
+        assert!(rmse < 0.05 && wrong > 1.5 * rmse, "{rmse} {wrong}");
+    });
+    trials.add("parallel_and_rolled_cameras_have_cascades", |gpu| {
+        let own = valley();
+        let up = Vec3::new(0.3, 1.0, 0.1).normalize();
+        let projection = Projection::Orthographic { height: 12.0 };
+        let camera = Camera { up, projection, ..own.camera };
+        let results = run(gpu, &Setting { camera, cascades: 3, ..own }, &["hard", "dpm"]).results;
+        assert_eq!(results.views.len(), 3);
+        let agreement = results.truth.coverage_agreement;
+        assert!(agreement > 0.99, "{agreement}");
+        for technique in &results.techniques {
+            let matched = technique.scores.hard.pixel_match;
+            assert!(matched > results.truth.no_shadow.pixel_match, "{}: {matched}", technique.spec);
+        }
+    });
+    trials.add("means_over_few_pixels_are_told_by_their_number", |gpu| {
+        let small = Setting { resolution: [40, 30], ..valley() };
+        let score = run(gpu, &small, &["hard"]).results.techniques[0].scores.hard;
+        assert!(score.deep_shadow_pixels < FEWEST_DEEP && score.leak.is_none(), "{score:?}");
+        assert!(score.deep_lit_pixels >= FEWEST_DEEP && score.over_darkening.is_some(), "{score:?}");
+    });
+    trials.add("every_technique_takes_eight_cascades", |gpu| {
+        let setting = Setting { cascades: 8, map_size: 128, resolution: [32, 24], ..valley() };
+        let results = run(gpu, &setting, &["all"]).results;
+        assert!(results.left_out.is_empty(), "{:?}", results.left_out);
+        assert!(results.techniques.iter().all(|t| t.invalid.is_none()), "{:?}", results.techniques);
+    });
+    trials.run();
+}
+
+fn adopt(gpu: &antumbra_testing::Gpu) -> Gpu {
+    Gpu::adopt(gpu.device.clone(), gpu.queue.clone(), gpu.info.clone())
+}
+
+fn request(setting: &Setting, specs: &[&str]) -> Request {
+    let specs: Vec<String> = specs.iter().map(|s| (*s).into()).collect();
+    let techniques = compare::techniques(&specs, setting.kernel).unwrap();
+    Request { setting: setting.clone(), techniques, grid: 1, rounds: 1, command: Vec::new() }
+}
+
+fn run(gpu: &antumbra_testing::Gpu, setting: &Setting, specs: &[&str]) -> Comparison {
+    compare::compare(&adopt(gpu), &request(setting, specs), &Silent).unwrap()
+}
+
+/// Ground of 3 km between slopes of 1.2 km, and a few posts near the camera.
+fn valley() -> Setting {
+    let mut mesh = Mesh::default();
+    let quad = |mesh: &mut Mesh, corners: [[f32; 3]; 4]| {
+        let corners = corners.map(Vec3::from);
+        let first = mesh.positions.len() as u32;
+        let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize();
+        mesh.positions.extend(corners);
+        mesh.normals.extend([normal; 4]);
+        mesh.uvs.extend([Vec2::ZERO; 4]);
+        mesh.colors.extend([Vec4::ONE; 4]);
+        mesh.indices.extend([0, 1, 2, 0, 2, 3].map(|i| first + i));
+    };
+    let (w, far, rise) = (200.0, 1500.0, 1200.0);
+    quad(&mut mesh, [[-w, 0.0, -far], [-w, 0.0, far], [w, 0.0, far], [w, 0.0, -far]]);
+    quad(&mut mesh, [[-2000.0, rise, -far], [-2000.0, rise, far], [-w, 0.0, far], [-w, 0.0, -far]]);
+    quad(&mut mesh, [[w, 0.0, -far], [w, 0.0, far], [2000.0, rise, far], [2000.0, rise, -far]]);
+    for i in 0..6 {
+        let x = -4.0 + 1.5 * i as f32;
+        let wide = 0.4;
+        quad(&mut mesh, [[x, 0.0, 0.0], [x + wide, 0.0, 0.0], [x + wide, 2.0, 0.0], [x, 2.0, 0.0]]);
+    }
+    let scene = Scene {
+        name: "valley".into(),
+        meshes: vec![mesh],
+        instances: vec![Instance { mesh: 0, world_from_mesh: Mat4::IDENTITY }],
+        materials: vec![Material::default()],
+        ..Scene::default()
+    };
+    scene.validate().unwrap();
+    Setting {
+        name: scene.name.clone(),
+        geometry: Arc::new(scene.flatten()),
+        camera: Camera {
+            position: Vec3::new(0.0, 5.0, 14.0),
+            target: Vec3::new(0.0, 0.8, 0.0),
+            up: Vec3::Y,
+            projection: Projection::Perspective { fov_y: 0.7 },
+        },
+        light: Light::Directional { direction: Vec3::new(0.5, -1.0, 0.6).normalize() },
+        resolution: [160, 120],
+        map_size: 256,
+        kernel: 5,
+        cascades: 1,
+        bias: Bias::Auto,
+    }
+}
