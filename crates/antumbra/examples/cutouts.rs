@@ -58,7 +58,8 @@ struct Varying { @builtin(position) clip: vec4f, @location(0) world: vec3f, @loc
     let normal = normalize(cross(down, across));
     let sun = abs(dot(normal, normalize(vec3f(-0.7, 1.0, 0.25))));
     let lit = shadow_visibility(in.world, normal, across, down);
-    return vec4f(vec3f(0.9, 0.85, 0.7) * (0.2 + 0.8 * sun * lit), 1.0);
+    let albedo = select(vec3f(0.9, 0.85, 0.7), vec3f(0.4, 0.6, 0.3), in.world.y > 1.0);
+    return vec4f(albedo * (0.2 + 0.8 * sun * lit), 1.0);
 }";
 
 /// Centre and half side of the card.
