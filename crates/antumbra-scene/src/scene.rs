@@ -109,7 +109,7 @@ pub struct Material {
     pub metallic: f32,
     /// 0 smooth .. 1 rough.
     pub roughness: f32,
-    /// Cut-out or not. Blended surfaces are imported as opaque.
+    /// Cut-out or not. What becomes of blended surfaces [`import::Blend`](crate::import::Blend) says.
     pub alpha: AlphaMode,
     /// What the file says. Casters stop light from both sides either way, and so do cameras unless
     /// [`Geometry::single_sided`](crate::Geometry::single_sided) says so.
