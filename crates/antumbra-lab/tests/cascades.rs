@@ -12,7 +12,7 @@ use antumbra_lab::{
 };
 use antumbra_scene::{Camera, Instance, Light, Material, Mesh, Projection, Scene};
 use antumbra_testing::Trials;
-use glam::{Mat4, Vec2, Vec3, Vec4};
+use glam::{DMat4, Vec2, Vec3, Vec4};
 use std::sync::Arc;
 
 fn main() {
@@ -108,7 +108,7 @@ fn valley() -> Setting {
     let scene = Scene {
         name: "valley".into(),
         meshes: vec![mesh],
-        instances: vec![Instance { mesh: 0, world_from_mesh: Mat4::IDENTITY }],
+        instances: vec![Instance::new(0, DMat4::IDENTITY)],
         materials: vec![Material::default()],
         ..Scene::default()
     };
