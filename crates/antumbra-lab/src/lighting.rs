@@ -18,6 +18,8 @@ pub use pictures::Pictures;
 #[derive(Debug)]
 pub struct Lookup {
     pipeline: wgpu::RenderPipeline,
+    /// Whether it asks about cut-outs.
+    asks: bool,
 }
 
 impl Lookup {
@@ -35,9 +37,13 @@ impl Lookup {
     }
 
     fn asking(gpu: &Gpu, stage: &Stage, shadows: &ShadowMap, question: &str) -> Self {
-        let source = shadows.wgsl(1).after(question);
-        let groups = [&stage.surfaces().layout, shadows.layout()];
-        Self { pipeline: fullscreen(gpu, "lookup", source, &groups, TextureFormat::R32Float) }
+        let masks = stage.masks().filter(|_| shadows.asks_about_cutouts());
+        let covers = if masks.is_some() { shaders::COVERS } else { "" };
+        let source = shadows.wgsl(1).after(&[question, covers].concat());
+        let mut groups = vec![&stage.surfaces().layout, shadows.layout()];
+        groups.extend(masks.map(|masks| &masks.layout));
+        let pipeline = fullscreen(gpu, "lookup", source, &groups, TextureFormat::R32Float);
+        Self { pipeline, asks: masks.is_some() }
     }
 
     /// Everything lit: what the pass costs without any lookup.
@@ -52,6 +58,7 @@ impl Lookup {
                 &[&stage.surfaces().layout],
                 TextureFormat::R32Float,
             ),
+            asks: false,
         }
     }
 }
@@ -92,6 +99,9 @@ impl Lighting {
         pass.set_bind_group(0, &stage.surfaces().group, &[]);
         if let Some(shadows) = shadows {
             pass.set_bind_group(1, shadows.bind_group(), &[]);
+        }
+        if let Some(masks) = stage.masks().filter(|_| lookup.asks) {
+            pass.set_bind_group(2, &masks.group, &[]);
         }
         pass.draw(0..3, 0..1);
     }

@@ -10,6 +10,8 @@ pub(crate) const STAGE: &str = wgsl!("stage/frame.wgsl", "stage/stage.wgsl");
 pub(crate) const CASTER: &str = wgsl!("stage/frame.wgsl", "stage/caster.wgsl");
 /// Holes of casters that are triangles.
 pub(crate) const CUTOUT: &str = wgsl!("stage/frame.wgsl", "stage/cutout.wgsl");
+/// `shadow_covers`, behind what asks a map about surfaces, with its bindings in group 2.
+pub(crate) const COVERS: &str = wgsl!("stage/covers.wgsl");
 /// Visibility of every surface, before a map's `shadow_visibility`.
 pub(crate) const VISIBILITY: &str =
     wgsl!("stage/frame.wgsl", "lighting/lookup.wgsl", "lighting/visibility.wgsl");
@@ -53,18 +55,21 @@ mod tests {
             shaders.add(name, text.into(), &[], Needs::LEAST);
         }
         let device = Capabilities { features: wgpu::Features::empty(), limits: wgpu::Limits::default() };
-        let options = Options::from(Size::square(64)).views(4);
-        for technique in technique::all() {
+        let plain = Options::from(Size::square(64)).views(4);
+        let asking = plain.clone().cutouts(true);
+        let all = technique::all();
+        for (technique, options) in all.iter().flat_map(|t| [(t, &plain), (t, &asking)]) {
             let name = technique.page().name;
-            let receiver = |group| ShaderText::receiver(technique.as_ref(), &device, &options, group).text();
+            let covers = if options.cutouts && technique.caster().keeps_ids() { COVERS } else { "" };
+            let receiver = |group| ShaderText::receiver(technique.as_ref(), &device, options, group).text();
             let class = (!technique.classes().is_empty()).then_some(("class", CLASS, 1));
             for (what, text, group) in
                 [("visibility", VISIBILITY, 1), ("curve", CURVE, 0)].into_iter().chain(class)
             {
-                let text = format!("{text}\n{}", receiver(group));
+                let text = format!("{text}{covers}\n{}", receiver(group));
                 shaders.add(&format!("{name}: {what}"), text, &[], Needs::LEAST);
             }
-            let casters = Shader::all(technique.as_ref(), &device, &options, Some(CUTOUT)).unwrap();
+            let casters = Shader::all(technique.as_ref(), &device, options, Some(CUTOUT)).unwrap();
             for shader in casters.into_iter().filter(|shader| shader.pass == "cut-out") {
                 shaders.add(&format!("{name}: cut-out"), shader.text, &shader.targets, Needs::LEAST);
             }
@@ -79,8 +84,19 @@ mod tests {
         assert!(found.len() > 5, "{found:?}");
         for path in found {
             let text = std::fs::read_to_string(&path).unwrap();
-            let all =
-                [STAGE, CASTER, CUTOUT, VISIBILITY, CLASS, UNSHADOWED, LIGHT, PICTURE, FLAT_CASTER, CURVE];
+            let all = [
+                STAGE,
+                CASTER,
+                CUTOUT,
+                VISIBILITY,
+                CLASS,
+                UNSHADOWED,
+                LIGHT,
+                PICTURE,
+                FLAT_CASTER,
+                CURVE,
+                COVERS,
+            ];
             assert!(all.iter().any(|all| all.contains(&text)), "{} is in no shader", path.display());
         }
     }

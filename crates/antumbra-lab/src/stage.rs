@@ -15,6 +15,7 @@ use wgpu::{RenderPass, TextureFormat, TextureView};
 
 mod casters;
 mod frame;
+mod masks;
 mod materials;
 mod nearest;
 mod parts;
@@ -23,6 +24,7 @@ pub(crate) mod surfaces;
 
 pub use casters::Casters;
 pub(crate) use frame::Frame;
+use masks::Masks;
 use materials::Materials;
 use pipelines::{Group, Pipelines};
 pub(crate) use pipelines::{fullscreen, fullscreen_into};
@@ -46,6 +48,8 @@ pub struct Stage {
     /// With ranges of indices; opaque ones first.
     groups: Vec<(Group, std::ops::Range<u32>)>,
     materials: Materials,
+    /// `None` where lookups cannot ask about cut-outs.
+    masks: Option<Masks>,
     pipelines: Pipelines,
     camera_matrix: Mat4,
     frame: Frame,
@@ -126,6 +130,7 @@ impl Stage {
             light_group: uniform(&light_buffer, size_of::<Mat4>()),
             surfaces: Surfaces::new(gpu, resolution, &frame_buffer),
             materials,
+            masks: Masks::new(gpu, geometry),
             pipelines,
             camera_matrix,
             frame,
@@ -177,6 +182,18 @@ impl Stage {
     /// Replaces it. Maps that turn out too small are allocated anew all the same.
     pub fn set_capacity(&mut self, capacity: Capacity) {
         self.capacity = capacity;
+    }
+
+    /// Whether there are cut-outs, and lookups can ask about their holes: for
+    /// [`Options::cutouts`](antumbra::Options).
+    #[must_use]
+    pub fn tells_cutouts(&self) -> bool {
+        self.masks.is_some()
+    }
+
+    /// What lookups that ask about cut-outs bind.
+    pub(crate) fn masks(&self) -> Option<&Masks> {
+        self.masks.as_ref()
     }
 
     /// What the camera sees.
@@ -353,6 +370,20 @@ pub(crate) fn loaded(binding: u32) -> wgpu::BindGroupLayoutEntry {
             sample_type: wgpu::TextureSampleType::Float { filterable: false },
             view_dimension: wgpu::TextureViewDimension::D2,
             multisampled: false,
+        },
+        count: None,
+    }
+}
+
+/// Layout entry of a buffer that is read.
+pub(crate) fn loaded_buffer(binding: u32) -> wgpu::BindGroupLayoutEntry {
+    wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::FRAGMENT,
+        ty: wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Storage { read_only: true },
+            has_dynamic_offset: false,
+            min_binding_size: None,
         },
         count: None,
     }

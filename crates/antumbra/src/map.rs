@@ -5,7 +5,7 @@ use crate::{
     error::{CasterError, Unsupported},
     light::{Size, View},
     pass,
-    shader::{self, ShaderText},
+    shader::{self, Cutout, ShaderText},
     technique::{self, Bias, Binding, Caster, Technique},
 };
 use glam::Vec2;
@@ -62,11 +62,22 @@ pub struct Options {
     pub pipelines: Option<Pipelines>,
     /// Memory for triangles, where the technique keeps them by id.
     pub capacity: Capacity,
+    /// Whether lookups of techniques that keep triangles by id ask the user's shader about the holes of
+    /// cut-outs, where the light's ray meets their triangles ([`ShadowMap::wgsl`]). Else holes are as coarse as
+    /// texels. Takes 48 bytes more for each triangle of the capacity. Other techniques ignore it.
+    pub cutouts: bool,
 }
 
 impl From<Size> for Options {
     fn from(size: Size) -> Self {
-        Self { size, views: 1, bias: Bias::Auto, pipelines: None, capacity: Capacity::default() }
+        Self {
+            size,
+            views: 1,
+            bias: Bias::Auto,
+            pipelines: None,
+            capacity: Capacity::default(),
+            cutouts: false,
+        }
     }
 }
 
@@ -90,6 +101,11 @@ impl Options {
     #[must_use]
     pub fn capacity(self, capacity: Capacity) -> Self {
         Self { capacity, ..self }
+    }
+    /// The same with lookups that ask about cut-outs, or without.
+    #[must_use]
+    pub fn cutouts(self, cutouts: bool) -> Self {
+        Self { cutouts, ..self }
     }
 }
 
@@ -132,6 +148,8 @@ pub struct ShadowMap {
     size: Size,
     room: u32,
     capacity: Capacity,
+    /// Whether lookups ask about cut-outs.
+    asks: bool,
     textures: Textures,
     uniforms: Uniforms,
     draws: Vec<Vec<Draw>>,
@@ -241,7 +259,8 @@ impl ShadowMap {
         };
         let lists = match technique.caster() {
             Caster::Lists => {
-                let size = ListSize { size: options.size, views: options.views, capacity: options.capacity };
+                let Options { size, views, capacity, cutouts, .. } = *options;
+                let size = ListSize { size, views, capacity, cutouts };
                 check::lists(device, technique, size)?;
                 Some(Lists::new(device, technique, size, &pipelines))
             }
@@ -249,8 +268,8 @@ impl ShadowMap {
         };
         let ranked = match technique.caster() {
             Caster::Ranked { keeps } => {
-                let Options { size, views, capacity, .. } = *options;
-                let size = RankedSize { size, views, keeps, capacity };
+                let Options { size, views, capacity, cutouts, .. } = *options;
+                let size = RankedSize { size, views, keeps, capacity, cutouts };
                 check::ranked(device, technique, size)?;
                 Some(RankedTriangles::new(device, technique, size, &pipelines))
             }
@@ -286,6 +305,7 @@ impl ShadowMap {
             size: options.size,
             room: options.views,
             capacity: options.capacity,
+            asks: technique.caster().keeps_ids() && options.cutouts,
             textures,
             uniforms,
             draws,
@@ -445,6 +465,11 @@ impl ShadowMap {
     /// next to the texel's centre: holes have the map's resolution, edges of their triangles
     /// sub-texel precision, and a texel with holes says nothing about its neighbours.
     ///
+    /// Where lookups ask ([`asks_about_cutouts`](Self::asks_about_cutouts)) every texel keeps all triangles that
+    /// touch it, holes or not, and receivers see through the holes themselves, at any size of the map. Then
+    /// `wgsl` also defines `caster_tag(triangle: u32) -> u32`, any number that `shadow_covers` will need to know the
+    /// triangle by, such as its material's, and `caster_covers` tells of the centres of texels alone.
+    ///
     /// `None` if casters are depth.
     ///
     /// # Errors
@@ -464,7 +489,8 @@ impl ShadowMap {
         check::cutout(device, technique, layouts.len())?;
         let (pipeline, refusal) = answer::ask_now(device, || {
             let triangles = self.triangles.as_ref().map(|t| t.cutout(device, technique, wgsl, layouts));
-            triangles.or_else(|| self.numbered().map(|n| n.cutout(device, technique, wgsl, layouts)))
+            let cutout = Cutout { wgsl, by_ray: self.asks };
+            triangles.or_else(|| self.numbered().map(|n| n.cutout(device, technique, cutout, layouts)))
         });
         refusal.map_or(Ok(pipeline), |refusal| {
             let technique = technique.page().name.into();
@@ -524,6 +550,12 @@ impl ShadowMap {
         &self.views
     }
 
+    /// Whether its lookups ask about cut-outs: [`Options::cutouts`], where the technique keeps triangles by id.
+    #[must_use]
+    pub fn asks_about_cutouts(&self) -> bool {
+        self.asks
+    }
+
     /// Layout of [`bind_group`](Self::bind_group), visible to fragment and compute shaders.
     #[must_use]
     pub fn layout(&self) -> &wgpu::BindGroupLayout {
@@ -541,12 +573,19 @@ impl ShadowMap {
     /// of the facet, of unit length, either side, not interpolated or bumped; `ddx` and `ddy` are the change of
     /// position from this pixel to the next. What has no surface, such as fog, passes the direction
     /// towards the light, and zeros.
+    ///
+    /// If it [asks about cut-outs](Self::asks_about_cutouts) the user's shader defines
+    /// `shadow_covers(tag: u32, triangle: u32, weights: vec3f) -> bool`, with her own bindings: whether a
+    /// triangle that [`cutout_caster`](Self::cutout_caster) drew stops light where its corners have these
+    /// weights, 0 to 1, sum 1. `triangle` is counted from the first index of its mesh, `tag` is what her
+    /// `caster_tag` said of it.
     #[must_use]
     pub fn wgsl(&self, group: u32) -> ShaderText {
         let size = shader::MapSize {
             views: self.room,
             capacity: self.capacity,
             splits: self.ranked.as_ref().map(RankedTriangles::splits).unwrap_or_default(),
+            asks: self.asks,
         };
         shader::receiver(self.technique.as_ref(), &self.capabilities, size, group)
     }

@@ -36,6 +36,7 @@ const FILES: &[(&str, &str)] = &[
     ("raster", include_str!("shader/raster.wgsl")),
     ("ray", include_str!("shader/ray.wgsl")),
     ("receiver", include_str!("shader/receiver.wgsl")),
+    ("record", include_str!("shader/record.wgsl")),
     ("reference_exact", include_str!("shader/reference/exact.wgsl")),
     ("reference_stepped", include_str!("shader/reference/stepped.wgsl")),
     ("samples", include_str!("shader/samples.wgsl")),
@@ -97,13 +98,22 @@ impl ShaderText {
         self.pieces.push((format!("{name}.wgsl"), format!("{text}{end}")));
     }
 
-    /// The technique's own file and all that it needs, constants replaced, needs first.
+    /// The technique's own file and all that it needs, constants replaced, needs first. Without what is for
+    /// cut-outs alone.
     pub(crate) fn library(technique: &dyn Technique, device: &Capabilities) -> Self {
+        Self::asking(technique, device, false)
+    }
+
+    /// The same; `asks` says whether it has what is for cut-outs.
+    fn asking(technique: &dyn Technique, device: &Capabilities, asks: bool) -> Self {
         let mut shader = Self { pieces: Vec::new() };
         let parts = technique.parts(device);
         shader.need("raster", &parts);
         shader.need_all(technique.wgsl(), &parts);
-        shader.push(technique.page().name, technique.wgsl());
+        // Empty lines instead of those left out, so that line numbers stay right.
+        let line = |line: &'static str| if asks || !line.contains(CUT_OUTS) { line } else { "" };
+        let text: String = technique.wgsl().lines().flat_map(|l| [line(l), "\n"]).collect();
+        shader.push(technique.page().name, &text);
         for constant in technique.constants() {
             shader.replace(&constant);
         }
@@ -178,6 +188,9 @@ impl ShaderText {
     }
 }
 
+/// Ends lines that are for cut-outs alone.
+const CUT_OUTS: &str = "// cut-outs";
+
 /// What projecting, interpolating and storing as a float do to a projected depth: eight units in the
 /// last place from ½ to 1.
 const ROUNDING: &str = "4.8e-7";
@@ -202,6 +215,8 @@ pub(crate) struct MapSize {
     pub(crate) views: u32,
     pub(crate) capacity: Capacity,
     pub(crate) splits: Splits,
+    /// Whether lookups ask about cut-outs.
+    pub(crate) asks: bool,
 }
 
 /// The functions through which a technique reads a buffer, which WGSL cannot pass on.
@@ -215,6 +230,17 @@ fn accessors(ranked: Ranked, name: &str, size: MapSize) -> String {
             size.splits.keys.chosen(name, |buffer, i| format!("return {buffer}[{i}];")),
             size.capacity.id_bits()
         ),
+        Ranked::Corners if size.asks => format!(
+            "fn shadow_vertex(i: u32, corner: u32) -> vec4f {{ {} }}\n\
+             fn shadow_corner(view: u32, triangle: u32, corner: u32) -> vec3f {{ \
+             return shadow_vertex(view * {triangles}u + triangle, corner).xyz; }}\n\
+             fn shadow_has_holes(view: u32, triangle: u32) -> bool {{ \
+             return shadow_vertex(view * {triangles}u + triangle, 0u).w != 0.0; }}\n\
+             fn shadow_record(view: u32, triangle: u32, corner: u32) -> vec4f {{ \
+             return shadow_vertex({}u + view * {triangles}u + triangle, corner); }}\n",
+            size.splits.corners.chosen(name, |buffer, i| format!("return {buffer}[3u * {i} + corner];")),
+            size.splits.corners.elements / 2
+        ),
         Ranked::Corners => format!(
             "fn shadow_corner(view: u32, triangle: u32, corner: u32) -> vec3f {{ \
              let i = view * {triangles}u + triangle; {} }}\n",
@@ -223,15 +249,20 @@ fn accessors(ranked: Ranked, name: &str, size: MapSize) -> String {
     }
 }
 
-/// `shadow_visibility` and everything it needs, bound in `group`.
+/// `shadow_visibility` and everything it needs, bound in `group`; it may call the user's
+/// `shadow_covers` about cut-outs.
 pub(crate) fn receiver(
     technique: &dyn Technique,
     device: &Capabilities,
     size: MapSize,
     group: u32,
 ) -> ShaderText {
-    let mut shader = ShaderText::library(technique, device);
+    let mut shader = ShaderText::asking(technique, device, size.asks);
     shader.need("receiver", &[]);
+    if size.asks {
+        shader.need("record", &[]);
+        shader.push("shadow_stops", include_str!("shader/stops.wgsl.in"));
+    }
     let name = technique.page().name;
     let widths: String =
         technique.widths().iter().map(|(width, _)| format!(", width_{width}: f32")).collect();
@@ -335,12 +366,20 @@ pub(crate) enum TrianglePass {
     Indexed(Coverage),
 }
 
-/// The pass that draws triangles for casters that are not [`Caster::Depth`]. `cutout` is the
-/// caller's WGSL that leaves parts of them out.
+/// How parts of triangles are left out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Cutout<'a> {
+    /// The caller's WGSL that says which.
+    pub(crate) wgsl: &'a str,
+    /// Whether lookups ask about them, ray by ray; else texels leave them out.
+    pub(crate) by_ray: bool,
+}
+
+/// The pass that draws triangles for casters that are not [`Caster::Depth`].
 pub(crate) fn triangles(
     technique: &dyn Technique,
     device: &Capabilities,
-    cutout: Option<&str>,
+    cutout: Option<Cutout<'_>>,
     pass: TrianglePass,
     splits: &Splits,
 ) -> String {
@@ -354,6 +393,10 @@ pub(crate) fn triangles(
         _ => ShaderText::library(technique, device),
     };
     shader.need("coverage", &[]);
+    if cutout.is_some() {
+        shader.need("ray", &[]);
+        shader.need("record", &[]);
+    }
     let text = shader.text();
     let indexed = matches!(pass, TrianglePass::Indexed(_));
     let entry = match technique.caster() {
@@ -366,11 +409,16 @@ pub(crate) fn triangles(
     let own_depth = !device.clamps_depth() || pass == TrianglePass::Indexed(Coverage::Touched);
     let alone = if cutout.is_some() { "true" } else { "false" };
     let by_vertices = device.stores_from_vertices();
-    let left_out = |line: &&str| {
-        line.contains(if by_vertices { "// by fragments" } else { "// by vertices" })
-            || cutout.is_none() && line.contains("// cut-outs")
-            || !own_depth && line.contains("// own depth")
-    };
+    let by_ray = cutout.is_some_and(|cutout| cutout.by_ray);
+    let kept = [
+        (by_vertices, "// by vertices"),
+        (!by_vertices, "// by fragments"),
+        (cutout.is_some(), CUT_OUTS),
+        (by_ray, "// by ray"),
+        (cutout.is_some() && !by_ray, "// by texel"),
+        (own_depth, "// own depth"),
+    ];
+    let left_out = |line: &&str| kept.iter().any(|(kept, mark)| !kept && line.contains(mark));
     let buffers = buffers::of_casters(technique.caster(), splits);
     let entry = entry.map(|text| text.replace("{buffers}\n", &buffers));
     let glue = MESH.lines().chain(entry.iter().flat_map(|text| text.lines())).filter(|line| !left_out(line));
@@ -384,8 +432,11 @@ pub(crate) fn triangles(
     format!(
         "{}{}\n{text}{}",
         if indexed { "enable primitive_index;\n" } else { "" },
-        cutout.unwrap_or_default(),
-        glue.replace("{alone}", alone).replace("{spot}", spot).replace("{reach}", reach)
+        cutout.map_or("", |cutout| cutout.wgsl),
+        glue.replace("{asked}", if by_ray { "1.0" } else { "0.0" })
+            .replace("{alone}", alone)
+            .replace("{spot}", spot)
+            .replace("{reach}", reach)
     )
 }
 

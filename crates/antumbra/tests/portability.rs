@@ -36,6 +36,13 @@ const CLASSIFIES: &str = "
 }
 ";
 
+/// What it adds where lookups ask about cut-outs.
+const COVERS: &str = "
+fn shadow_covers(tag: u32, triangle: u32, weights: vec3f) -> bool {
+    return weights.x + f32(tag % 4u) > 0.5 || triangle > 7u;
+}
+";
+
 /// Holes of a user's casters.
 const CUTOUT: &str = "
 @group(2) @binding(0) var mask: texture_2d<f32>;
@@ -43,6 +50,9 @@ const CUTOUT: &str = "
 fn caster_covers(triangle: u32, weights: vec3f) -> bool {
     let corner = f32(caster_vertex(triangle, 2u));
     return textureSampleLevel(mask, mask_sampler, weights.xy + corner, 0.0).a > 0.5;
+}
+fn caster_tag(triangle: u32) -> u32 {
+    return triangle / 100u;
 }
 ";
 
@@ -80,8 +90,9 @@ fn add(shaders: &mut Shaders, spec: &str, options: &Options, needs: Needs) {
         shaders.add(&format!("{spec}: {}", shader.pass), shader.text, &shader.targets, needs);
     }
     let asks = if technique.classes().is_empty() { "" } else { CLASSIFIES };
+    let covers = if options.cutouts && technique.caster().keeps_ids() { COVERS } else { "" };
     let receiver = ShaderText::receiver(technique.as_ref(), &device, options, 1).text();
-    shaders.add(&format!("{spec}: receiver"), format!("{RECEIVES}{asks}\n{receiver}"), &[], needs);
+    shaders.add(&format!("{spec}: receiver"), format!("{RECEIVES}{asks}{covers}\n{receiver}"), &[], needs);
 }
 
 /// Everything: with one setting at a time on all kinds of devices, with several on the least device and on
@@ -94,7 +105,9 @@ fn library() -> Shaders {
     let split = Options::from(Size::square(4096)).capacity(capacity);
     for needs in devices() {
         settings::single().iter().for_each(|spec| add(&mut shaders, spec, &usual, needs));
-        technique::all().iter().for_each(|t| add(&mut shaders, t.page().name, &split, needs));
+        for options in [&split, &usual.clone().cutouts(true), &split.clone().cutouts(true)] {
+            technique::all().iter().for_each(|t| add(&mut shaders, t.page().name, options, needs));
+        }
     }
     let browser = Needs { features: Capabilities::OPTIONAL_FEATURES.difference(NATIVE), ..Needs::LEAST };
     for needs in [Needs::LEAST, browser] {

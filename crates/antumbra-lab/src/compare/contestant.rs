@@ -145,7 +145,7 @@ pub fn contestants(
     let (mut contestants, mut left_out) = (Vec::with_capacity(entries.len()), Vec::new());
     for (entry, (technique, bias)) in entries.iter().enumerate() {
         let options = Options::from(Size::square(map_size)).views(views).pipelines(&pipelines).bias(*bias);
-        let options = options.capacity(stage.capacity());
+        let options = options.capacity(stage.capacity()).cutouts(stage.tells_cutouts());
         match Contestant::new(gpu, stage, technique.as_ref(), &options, entry) {
             Ok(contestant) => contestants.push(contestant),
             Err(reason) => left_out

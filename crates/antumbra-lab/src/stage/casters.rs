@@ -1,6 +1,6 @@
 //! How the casters of a stage are drawn for a shadow map: depth, or triangles where it keeps those.
 
-use super::Stage;
+use super::{Stage, loaded_buffer};
 use crate::{gpu::Gpu, shaders};
 use antumbra::{CasterMesh, ShadowMap, technique::Caster};
 use anyhow::Result;
@@ -38,16 +38,7 @@ impl Casters {
         }
         let layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("attributes"),
-            entries: &[wgpu::BindGroupLayoutEntry {
-                binding: 0,
-                visibility: wgpu::ShaderStages::FRAGMENT,
-                ty: wgpu::BindingType::Buffer {
-                    ty: wgpu::BufferBindingType::Storage { read_only: true },
-                    has_dynamic_offset: false,
-                    min_binding_size: None,
-                },
-                count: None,
-            }],
+            entries: &[loaded_buffer(0)],
         });
         let attributes = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("attributes"),

@@ -8,6 +8,11 @@ fn cutout_attributes(vertex: u32) -> vec3f {
     return vec3f(attributes[9u * vertex + 3u], attributes[9u * vertex + 4u], attributes[9u * vertex + 8u]);
 }
 
+/// What `shadow_covers` hears of the triangle: its mask.
+fn caster_tag(triangle: u32) -> u32 {
+    return material.mask;
+}
+
 fn caster_covers(triangle: u32, weights: vec3f) -> bool {
     let corners = mat3x3f(
         cutout_attributes(caster_vertex(triangle, 0u)),

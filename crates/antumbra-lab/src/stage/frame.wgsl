@@ -14,6 +14,7 @@ struct Material {
     metallic: f32,
     roughness: f32,
     cutoff: f32,
+    mask: u32,
 }
 
 /// A line of sight; its start is relative to the eye.

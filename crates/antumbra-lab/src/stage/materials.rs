@@ -14,7 +14,8 @@ pub(super) struct MaterialUniform {
     pub(super) metallic: f32,
     pub(super) roughness: f32,
     pub(super) cutoff: f32,
-    _padding: f32,
+    /// Its number.
+    pub(super) mask: u32,
 }
 
 /// One bind group per material of the geometry.
@@ -52,12 +53,12 @@ impl Materials {
         let white = texture(gpu, &white)?;
         let textures: Vec<wgpu::TextureView> =
             geometry.images.iter().map(|i| texture(gpu, i)).collect::<Result<_>>()?;
-        let group = |material: &Material| {
+        let group = |(number, material): (u32, &Material)| {
             let image = material.base_color_image;
             let view = image.and_then(|i| textures.get(i)).unwrap_or(&white);
             let repeat = image.and_then(|i| geometry.images.get(i)).map_or([true; 2], |i| i.repeat);
             let sampler = sampler(gpu, repeat);
-            let bytes = material_uniform(material);
+            let bytes = material_uniform(number, material);
             let buffer = gpu.buffer(&material.name, bytemuck::bytes_of(&bytes), wgpu::BufferUsages::UNIFORM);
             gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
                 label: Some(&material.name),
@@ -69,12 +70,12 @@ impl Materials {
                 ],
             })
         };
-        let groups = geometry.materials.iter().map(group).collect();
+        let groups = (0..).zip(&geometry.materials).map(group).collect();
         Ok(Self { layout, groups })
     }
 }
 
-fn material_uniform(material: &Material) -> MaterialUniform {
+fn material_uniform(mask: u32, material: &Material) -> MaterialUniform {
     MaterialUniform {
         base_color: material.base_color.to_array(),
         metallic: material.metallic,
@@ -83,7 +84,7 @@ fn material_uniform(material: &Material) -> MaterialUniform {
             AlphaMode::Opaque => -1.0,
             AlphaMode::Mask { cutoff } => cutoff,
         },
-        _padding: 0.0,
+        mask,
     }
 }
 

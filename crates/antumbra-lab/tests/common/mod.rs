@@ -29,6 +29,8 @@ pub(crate) struct Shot {
     lighting: Lighting,
     /// What its maps have memory for: what the scene needs, unless a test wants otherwise.
     pub(crate) capacity: Capacity,
+    /// Whether lookups may ask about cut-outs: where the scene has some, unless a test wants otherwise.
+    pub(crate) cutouts: bool,
 }
 
 impl Shot {
@@ -51,7 +53,8 @@ impl Shot {
         let stage = Stage::new(&gpu, &geometry, &camera, &light, resolution).unwrap();
         let lighting = Lighting::new(&gpu, &stage);
         let capacity = stage.capacity();
-        Self { geometry, camera, light, resolution, gpu, stage, lighting, capacity }
+        let cutouts = stage.tells_cutouts();
+        Self { geometry, camera, light, resolution, gpu, stage, lighting, capacity, cutouts }
     }
 
     pub(crate) fn rays(&self) -> CameraRays {
@@ -74,6 +77,7 @@ impl Shot {
         bias: Bias,
     ) -> (Vec<ShadowMap>, View) {
         let options = Options::from(Size::square(size)).bias(bias).capacity(self.capacity);
+        let options = options.cutouts(self.cutouts);
         let new = |t: &&dyn Technique| ShadowMap::new(&self.gpu.device, *t, options.clone()).unwrap();
         let mut maps: Vec<ShadowMap> = techniques.iter().map(new).collect();
         let all: Vec<&ShadowMap> = maps.iter().collect();

@@ -54,11 +54,11 @@ impl Capacity {
 
 /// How the arrays of such a map are split into buffers.
 pub(crate) fn splits(technique: &dyn Technique, limits: &wgpu::Limits, options: &Options) -> Splits {
-    let Options { size, views, capacity, .. } = *options;
+    let Options { size, views, capacity, cutouts, .. } = *options;
     match technique.caster() {
         Caster::Depth | Caster::Triangles(_) => Splits::default(),
-        Caster::Lists => ListSize { size, views, capacity }.splits(limits),
-        Caster::Ranked { keeps } => RankedSize { size, views, keeps, capacity }.splits(limits),
+        Caster::Lists => ListSize { size, views, capacity, cutouts }.splits(limits),
+        Caster::Ranked { keeps } => RankedSize { size, views, keeps, capacity, cutouts }.splits(limits),
     }
 }
 

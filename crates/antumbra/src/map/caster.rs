@@ -4,7 +4,7 @@ use super::{DEPTH_FORMAT, memory::MemoryItem, pipelines::Pipelines};
 use crate::{
     capabilities::Capabilities,
     light::{Size, View},
-    shader::{self, TrianglePass, split::Splits},
+    shader::{self, Cutout, TrianglePass, split::Splits},
     technique::{Coverage, Technique},
 };
 use std::{
@@ -206,7 +206,8 @@ impl TriangleCaster {
         user: &[&BindGroupLayout],
     ) -> RenderPipeline {
         let (device_can, pass, splits) = (Capabilities::of(device), TrianglePass::Any, Splits::default());
-        let shader = shader::triangles(technique, &device_can, Some(wgsl), pass, &splits);
+        let shader =
+            shader::triangles(technique, &device_can, Some(Cutout { wgsl, by_ray: false }), pass, &splits);
         let own = layout(device, "shadow caster view", &[BufferBindingType::Uniform]);
         self.pulls.store(true, Ordering::Relaxed);
         compile(device, &shader, self.format, false, &own, user)

@@ -147,11 +147,11 @@ pub(super) fn lists(
             "take another technique".into(),
         );
     }
-    if extent.capacity.rows() > max {
+    if extent.rows() > max {
         let what = format!(
             "corners of {} triangles in {} rows of {ROW} ({max} are possible)",
             extent.capacity.triangles,
-            extent.capacity.rows()
+            extent.rows()
         );
         return refused(what, format!("give Options::capacity at most {} triangles", max * ROW));
     }

@@ -41,6 +41,8 @@ pub(super) struct ListSize {
     pub(super) size: Size,
     pub(super) views: u32,
     pub(super) capacity: Capacity,
+    /// Whether triangles have records.
+    pub(super) cutouts: bool,
 }
 
 impl ListSize {
@@ -53,6 +55,11 @@ impl ListSize {
     pub(super) fn splits(&self, limits: &wgpu::Limits) -> Splits {
         let max = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
         Splits { counts: Split::new(self.texels(), COUNT, max), ..Splits::default() }
+    }
+
+    /// Rows of textures of vertices: half of them of records, if there are any.
+    pub(super) fn rows(&self) -> u32 {
+        self.capacity.rows() * (1 + u32::from(self.cutouts))
     }
 
     /// Entries of a view.
@@ -139,7 +146,7 @@ impl Lists {
         let textures = [
             texture(0, "list ranges", width, height, TextureFormat::R32Uint),
             texture(1, "list numbers", ROW, rows, TextureFormat::R32Uint),
-            texture(2, "list corners", ROW, extent.capacity.rows(), TextureFormat::Rgba32Float),
+            texture(2, "list corners", ROW, extent.rows(), TextureFormat::Rgba32Float),
         ];
         let scan_layout = scan_layout(device, more);
         let pass =

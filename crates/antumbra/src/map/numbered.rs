@@ -8,7 +8,7 @@ use super::{
 use crate::{
     capabilities::Capabilities,
     light::{Size, View},
-    shader::{self, TrianglePass, split::Splits},
+    shader::{self, Cutout, TrianglePass, split::Splits},
     technique::{Coverage, Technique},
 };
 use std::num::NonZeroU64;
@@ -65,11 +65,11 @@ impl Numbered {
         &self,
         device: &wgpu::Device,
         technique: &dyn Technique,
-        wgsl: &str,
+        cutout: Cutout<'_>,
         user: &[&BindGroupLayout],
     ) -> RenderPipeline {
         let (device_can, pass) = (Capabilities::of(device), TrianglePass::Any);
-        let shader = shader::triangles(technique, &device_can, Some(wgsl), pass, &self.splits);
+        let shader = shader::triangles(technique, &device_can, Some(cutout), pass, &self.splits);
         compile(device, &shader, self.depth, &self.layout, user)
     }
 

@@ -31,6 +31,8 @@ pub(super) struct RankedSize {
     pub(super) views: u32,
     pub(super) keeps: u32,
     pub(super) capacity: Capacity,
+    /// Whether triangles have records.
+    pub(super) cutouts: bool,
 }
 
 impl RankedSize {
@@ -43,9 +45,11 @@ impl RankedSize {
     pub(super) fn splits(&self, limits: &wgpu::Limits) -> Splits {
         let max = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
         let views = u64::from(self.views);
+        // As many records follow.
+        let each = 1 + u64::from(self.cutouts);
         Splits {
             keys: Split::new(self.view_keys() * views, KEY, max),
-            corners: Split::new(u64::from(self.capacity.triangles) * views, CORNERS, max),
+            corners: Split::new(each * u64::from(self.capacity.triangles) * views, CORNERS, max),
             ..Splits::default()
         }
     }
@@ -82,7 +86,7 @@ impl RankedTriangles {
         extent: RankedSize,
         pipelines: &Pipelines,
     ) -> Self {
-        let RankedSize { size, views, keeps, capacity } = extent;
+        let RankedSize { size, views, keeps, capacity, .. } = extent;
         let splits = extent.splits(&device.limits());
         let layout = (layout(device, splits), splits);
         let numbered =

@@ -45,9 +45,8 @@ fn ranked(splits: &Splits) -> String {
     let (keys_end, marks) = (RANKED_FIRST + keys.count(), RANKED_FIRST + keys.count() + corners.count());
     let load = keys.chosen("ranked_keys", |buffer, i| format!("return atomicLoad(&{buffer}[{i}]);"));
     let raise = keys.chosen("ranked_keys", |buffer, i| format!("return atomicMax(&{buffer}[{i}], key);"));
-    let store = corners.chosen("ranked_corners", |buffer, i| {
-        format!("{buffer}[3u * {i} + corner] = vec4f(place, 0.0); return;")
-    });
+    let store =
+        corners.chosen("ranked_corners", |buffer, i| format!("{buffer}[3u * {i} + corner] = place; return;"));
     [
         keys.declared("ranked_keys", "read_write", "atomic<u32>", 0, |k| RANKED_FIRST + k),
         corners.declared("ranked_corners", "read_write", "vec4f", 0, |k| keys_end + k),
@@ -56,7 +55,8 @@ fn ranked(splits: &Splits) -> String {
         ),
         format!("fn ranked_key(i: u32) -> u32 {{ {load} }}\n"),
         format!("fn ranked_raise(i: u32, key: u32) -> u32 {{ {raise} }}\n"),
-        format!("fn ranked_keep(i: u32, corner: u32, place: vec3f) {{ {store} }}\n"),
+        format!("fn ranked_keep(i: u32, corner: u32, place: vec4f) {{ {store} }}\n"),
+        format!("const ranked_records: u32 = {}u; // by ray\n", corners.elements / 2),
     ]
     .concat()
 }

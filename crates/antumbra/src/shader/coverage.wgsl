@@ -84,10 +84,26 @@ fn coverage_nearest(lines: mat3x3f, distances: vec3f, bounds: vec4f, centre: vec
 
 /// Depth that a triangle's plane gains per texel along x and y; depths are the third coordinates of
 /// the corners. Zero for a triangle without area.
+///
+/// Gained along the longest edge, and then across it: the area of a long thin triangle, a small difference of
+/// large products, says nothing of what it gains along its length.
 fn coverage_slope(corners: mat3x3f) -> vec2f {
-    let b = corners[1] - corners[0];
-    let c = corners[2] - corners[0];
-    let area = b.x * c.y - b.y * c.x;
-    let gain = vec2f(b.z * c.y - c.z * b.y, c.z * b.x - b.z * c.x);
-    return select(gain / area, vec2f(0.0), area == 0.0);
+    let sides = mat3x3f(corners[2] - corners[1], corners[0] - corners[2], corners[1] - corners[0]);
+    let squares = vec3f(dot(sides[0].xy, sides[0].xy), dot(sides[1].xy, sides[1].xy), dot(sides[2].xy, sides[2].xy));
+    if squares.x >= max(squares.y, squares.z) {
+        return coverage_gain(sides[0], sides[1], squares.x);
+    }
+    if squares.y >= squares.z {
+        return coverage_gain(sides[1], sides[2], squares.y);
+    }
+    return coverage_gain(sides[2], sides[0], squares.z);
+}
+
+/// Depth gained per texel of a plane that rises along two sides of a triangle, of the first of which
+/// `square` is the squared length. Zero where they are parallel.
+fn coverage_gain(side: vec3f, next: vec3f, square: f32) -> vec2f {
+    let across = vec2f(-side.y, side.x);
+    let area = dot(across, next.xy);
+    let rest = next.z - dot(next.xy, side.xy) / square * side.z;
+    return select(side.z / square * side.xy + rest / area * across, vec2f(0.0), area == 0.0);
 }

@@ -1,6 +1,6 @@
 //! All shaders of a technique, without a device: for those who check or compile them beforehand.
 
-use super::{MapSize, ShaderText, TrianglePass, receiver, scan, triangles};
+use super::{Cutout, MapSize, ShaderText, TrianglePass, receiver, scan, triangles};
 use crate::{
     capabilities::Capabilities,
     error::Unsupported,
@@ -84,8 +84,9 @@ fn casters(
     let splits = map::splits(technique, &device.limits, options);
     let cast = |pass| shader("cast", triangles(technique, device, None, pass, &splits));
     let mut shaders: Vec<Shader> = passes.into_iter().map(cast).collect();
-    shaders
-        .extend(cutout.map(|wgsl| shader("cut-out", triangles(technique, device, Some(wgsl), Any, &splits))));
+    let by_ray = options.cutouts && technique.caster().keeps_ids();
+    let holed = |wgsl| triangles(technique, device, Some(Cutout { wgsl, by_ray }), Any, &splits);
+    shaders.extend(cutout.map(|wgsl| shader("cut-out", holed(wgsl))));
     if technique.caster() == Caster::Lists {
         shaders.push(Shader { pass: "scan", text: scan(&splits), targets: Vec::new() });
     }
@@ -98,7 +99,8 @@ impl ShaderText {
     #[must_use]
     pub fn receiver(technique: &dyn Technique, device: &Capabilities, options: &Options, group: u32) -> Self {
         let splits = map::splits(technique, &device.limits, options);
-        let size = MapSize { views: options.views, capacity: options.capacity, splits };
+        let asks = options.cutouts && technique.caster().keeps_ids();
+        let size = MapSize { views: options.views, capacity: options.capacity, splits, asks };
         receiver(technique, device, size, group)
     }
 }

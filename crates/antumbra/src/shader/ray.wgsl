@@ -5,11 +5,39 @@ fn ray_area(a: vec3f, b: vec3f) -> f32 {
     return a.x * b.y - a.y * b.x;
 }
 
+/// Weights, 0 to 1, sum 1, that the corners of a triangle with some area have at the receiver's ray, or
+/// next to it. Corners lie around the ray in x and y.
+///
+/// Places along the longest edge come from lengths and those across it from areas: areas alone, small
+/// differences of large products where triangles are long and thin, would not know how far along it is.
+fn ray_weights(a: vec3f, b: vec3f, c: vec3f) -> vec3f {
+    let areas = vec3f(ray_area(b, c), ray_area(c, a), ray_area(a, b));
+    let shares = areas / (areas.x + areas.y + areas.z);
+    let squares = vec3f(dot(c.xy - b.xy, c.xy - b.xy), dot(a.xy - c.xy, a.xy - c.xy), dot(b.xy - a.xy, b.xy - a.xy));
+    if squares.x >= max(squares.y, squares.z) {
+        return ray_along(b.xy, c.xy, a.xy, shares.x, squares.x).zxy;
+    }
+    if squares.y >= squares.z {
+        return ray_along(c.xy, a.xy, b.xy, shares.y, squares.y).yzx;
+    }
+    return ray_along(a.xy, b.xy, c.xy, shares.z, squares.z);
+}
+
+/// Weights of p, q and r, of which that of r is known; `square` is that of the distance from p to q.
+fn ray_along(p: vec2f, q: vec2f, r: vec2f, share: f32, square: f32) -> vec3f {
+    let along = (q - p) / square;
+    let third = clamp(share, 0.0, 1.0);
+    let second = clamp(dot(-p, along) - third * dot(r - p, along), 0.0, 1.0 - third);
+    return vec3f(1.0 - third - second, second, third);
+}
+
 /// Depth at the receiver's ray of a triangle whose corners lie around it in x and y, depths in z; beyond
 /// all depths if the ray misses it.
 fn ray_depth(a: vec3f, b: vec3f, c: vec3f) -> f32 {
-    let weights = vec3f(ray_area(b, c), ray_area(c, a), ray_area(a, b));
-    let sum = weights.x + weights.y + weights.z;
-    let inside = all(weights >= vec3f(0.0)) || all(weights <= vec3f(0.0));
-    return select(1e30, dot(weights, vec3f(a.z, b.z, c.z)) / sum, inside && sum != 0.0);
+    let areas = vec3f(ray_area(b, c), ray_area(c, a), ray_area(a, b));
+    let inside = all(areas >= vec3f(0.0)) || all(areas <= vec3f(0.0));
+    if !inside || areas.x + areas.y + areas.z == 0.0 {
+        return 1e30;
+    }
+    return dot(ray_weights(a, b, c), vec3f(a.z, b.z, c.z));
 }

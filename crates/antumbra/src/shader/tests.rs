@@ -3,8 +3,12 @@ use crate::technique::{self, all, parse};
 use antumbra_testing::{settings, shaders::parse as validate};
 use naga::AddressSpace;
 
-const SIZE: MapSize =
-    MapSize { views: 3, capacity: Capacity { triangles: 1000, triangles_per_texel: 4 }, splits: WHOLE };
+const SIZE: MapSize = MapSize {
+    views: 3,
+    capacity: Capacity { triangles: 1000, triangles_per_texel: 4 },
+    splits: WHOLE,
+    asks: false,
+};
 const ONE: Split = Split { elements: 3000, each: 3000 };
 const WHOLE: Splits = Splits { keys: ONE, corners: ONE, counts: ONE };
 /// Arrays that are larger than bindings.
@@ -172,6 +176,9 @@ fn every_receiver_binds_what_the_technique_names() {
             let spec = technique::spec(technique.as_ref());
             let module = validate(&receiver(technique.as_ref(), &device, SIZE, 2).text())
                 .unwrap_or_else(|e| panic!("{spec}: {e}"));
+            let covers = "fn shadow_covers(tag: u32, triangle: u32, weights: vec3f) -> bool { return tag > triangle; }\n";
+            let asking = receiver(technique.as_ref(), &device, MapSize { asks: true, ..SIZE }, 2).text();
+            validate(&format!("{covers}{asking}")).unwrap_or_else(|e| panic!("{spec}: {e}"));
             let bound: Vec<_> = module.global_variables.iter().filter_map(|(_, v)| v.binding).collect();
             assert_eq!(bound.len(), 1 + technique.bindings().len(), "{spec}");
             assert!(bound.iter().all(|b| b.group == 2), "{spec}: {bound:?}");

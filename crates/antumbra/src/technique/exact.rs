@@ -5,7 +5,8 @@
 //! the size of the map decides how fast it comes, not what it is. Casters are drawn twice, to count and
 //! to fill the lists. Memory is allocated once, for the map's [`Capacity`]; triangles beyond that are left
 //! out, and light leaks there ([`ShadowMap::list_totals`](crate::ShadowMap::list_totals) tells). Holes of cut-out casters have the
-//! resolution of the map.
+//! resolution of the map, unless lookups ask about them ([`Options::cutouts`](crate::Options)): then that of their
+//! images.
 //!
 //! What Lecocq et al. 2014, "Sub-Pixel Shadow Mapping", §3.1, call intractable.
 

@@ -256,3 +256,75 @@ pub(crate) fn exact_intersects(gpu: &Gpu) {
     assert_eq!(wrong([0.0; 2]), 0);
     assert!(wrong([0.05, 0.0]) > 500, "{}", wrong([0.05, 0.0]));
 }
+
+/// A long thin triangle around the receiver, thousandths of a texel to one wide, which gains depth along its
+/// length rather than across.
+fn thin(r: &mut Random) -> Row {
+    let along = DVec2::from_angle(f64::from(r.range(0.0, std::f32::consts::TAU)));
+    let length = f64::from(r.range(50.0, 800.0));
+    let width = 10f64.powf(f64::from(r.range(-2.7, 0.0)));
+    // Where the opposite corner is along the longest edge, and the receiver between the three.
+    let opposite = f64::from(r.range(0.05, 0.95));
+    let inside = f64::from(r.range(0.2, 0.8));
+    let place = inside * opposite + (1.0 - inside) * f64::from(r.range(0.1, 0.9));
+    let corners = [[0.0, 0.0], [1.0, 0.0], [opposite, 1.0]]
+        .map(|[x, y]| ((x - place) * length * along + (y - inside) * width * along.perp()).as_vec2());
+    let start = (r.unit() * 3.0) as usize;
+    let ends = [r.unit(), r.unit()];
+    let apex = ends[0] + opposite as f32 * (ends[1] - ends[0]) + r.range(-0.01, 0.01) * width as f32;
+    let depths = [ends[0], ends[1], apex];
+    let mut row = [0.0; INPUTS];
+    for (k, corner) in corners.iter().enumerate() {
+        let at = 3 * ((k + start) % 3);
+        row[at..at + 3].copy_from_slice(&[corner.x, corner.y, depths[k]]);
+    }
+    row
+}
+
+/// Depths of long thin triangles, and what their planes gain per texel, are as right as the corners: floats
+/// place these, some hundred texels from the receiver, to within 5·10⁻⁵ of a texel.
+pub(crate) fn thin_triangles_are_met(gpu: &Gpu) {
+    let rows = rows(40, thin);
+    let shadows = ShadowMap::new(&gpu.device, &Exact::default(), MAP).unwrap();
+    let body = "
+        let a = take3(0u);
+        let b = take3(3u);
+        let c = take3(6u);
+        put(0u, ray_depth(a, b, c));
+        let areas = vec3f(ray_area(b, c), ray_area(c, a), ray_area(a, b));
+        put(1u, dot(areas, vec3f(a.z, b.z, c.z)) / (areas.x + areas.y + areas.z));";
+    let found = run::<2>(gpu, &shadows, body, &rows);
+    let wrong = |which: usize| {
+        let off = |r: &Row, found: f32| {
+            let [a, b, c] = [0, 1, 2].map(|k| [0, 1, 2].map(|i| f64::from(r[3 * k + i])));
+            let depth = exact::reference::depth([a, b, c], [0.0; 2]);
+            let [p, q] = [[b, a], [c, a]].map(|[q, p]| [0, 1, 2].map(|i| q[i] - p[i]));
+            let area = p[0] * q[1] - p[1] * q[0];
+            let gain = DVec2::new(p[2] * q[1] - q[2] * p[1], q[2] * p[0] - p[2] * q[0]) / area;
+            (f64::from(found) - depth).abs() > 2e-6 + 2e-4 * gain.length()
+        };
+        rows.iter().zip(&found).filter(|(r, f)| off(r, f[which])).count()
+    };
+    assert_eq!(wrong(0), 0);
+    assert!(wrong(1) > 50, "areas alone: {}", wrong(1));
+}
+
+/// Ids and tags come back, whatever their 32 bits.
+pub(crate) fn records_keep_every_bit(gpu: &Gpu) {
+    let half = |r: &mut Random| if r.unit() < 0.3 { 65535.0 } else { (r.unit() * 65535.0).floor() };
+    let rows = rows(41, |r| row([half(r), half(r), half(r), half(r)]));
+    let shadows = ShadowMap::new(&gpu.device, &Exact::default(), Options::from(MAP).cutouts(true)).unwrap();
+    let body = "
+        let given = vec2u((u32(take(0u)) << 16u) | u32(take(1u)), (u32(take(2u)) << 16u) | u32(take(3u)));
+        let words = record_packed(given.x, given.y);
+        let found = record_unpacked(words);
+        put4(0u, vec4f(vec4u(found.x >> 16u, found.x & 65535u, found.y >> 16u, found.y & 65535u)));
+        put(4u, max(words.x, max(words.y, words.z)));
+    }
+    fn shadow_covers(tag: u32, triangle: u32, weights: vec3f) -> bool {
+        return true;";
+    for (row, found) in rows.iter().zip(run::<5>(gpu, &shadows, body, &rows)) {
+        assert_eq!(found[..4], row[..4]);
+        assert!(found[4] < 16_777_216.0, "{found:?}");
+    }
+}

@@ -198,6 +198,8 @@ fn main() {
     trials.add("mirrored objects show their other side", ranked::mirrored_objects_show_their_other_side);
     trials.add("centres have their depth", ranked::centres_have_their_depth);
     trials.add("exact intersects", lists::exact_intersects);
+    trials.add("records keep every bit", lists::records_keep_every_bit);
+    trials.add("long thin triangles are met", lists::thin_triangles_are_met);
     trials.add("silhouettes of fine meshes are recovered", silhouettes::fine_meshes);
     trials.add("sheets count among closed casters", silhouettes::sheets_count_among_closed_casters);
     trials.add("edges of large triangles are smooth", silhouettes::edges_are_smooth);

@@ -48,7 +48,7 @@ fn device() -> Capabilities {
 }
 
 fn size(views: u32) -> shader::MapSize {
-    shader::MapSize { views, capacity: crate::Capacity::default(), splits: Default::default() }
+    shader::MapSize { views, capacity: crate::Capacity::default(), splits: Default::default(), asks: false }
 }
 
 fn width_names(technique: &dyn Technique) -> Vec<&'static str> {

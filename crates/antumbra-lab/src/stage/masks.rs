@@ -1,0 +1,96 @@
+//! The holes of masked materials, for lookups that ask about them where rays meet triangles.
+
+use super::loaded_buffer;
+use crate::gpu::Gpu;
+use antumbra_scene::{AlphaMode, Geometry};
+use bytemuck::{Pod, Zeroable};
+use std::collections::BTreeMap;
+
+/// Rust side of `Mask` in `covers.wgsl`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+struct Mask {
+    start: u32,
+    width: u32,
+    height: u32,
+    repeats: u32,
+    alpha: f32,
+    cutoff: f32,
+    first: u32,
+}
+
+/// Alphas of the images, and which part of them the corners of masked triangles show.
+#[derive(Debug)]
+pub(crate) struct Masks {
+    pub(crate) layout: wgpu::BindGroupLayout,
+    pub(crate) group: wgpu::BindGroup,
+}
+
+impl Masks {
+    /// `None` where nothing is masked, or where images hold more texels than a binding: then holes are as
+    /// coarse as the texels of maps.
+    pub(super) fn new(gpu: &Gpu, geometry: &Geometry) -> Option<Self> {
+        let masked = |m: usize| matches!(geometry.materials[m].alpha, AlphaMode::Mask { .. });
+        let first =
+            geometry.groups.iter().filter(|group| masked(group.0)).map(|group| group.1.start).min()?;
+        let (masks, alphas) = masks(geometry, first);
+        let corners = corners(geometry, first);
+        let contents: [&[u8]; 3] = [bytemuck::cast_slice(&masks), &alphas, bytemuck::cast_slice(&corners)];
+        let most = gpu.device.limits().max_storage_buffer_binding_size;
+        if contents.iter().any(|bytes| bytes.len() as u64 > most) {
+            return None;
+        }
+        let layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("masks"),
+            entries: &[0, 1, 2].map(loaded_buffer),
+        });
+        let buffers = contents.map(|bytes| gpu.buffer("masks", bytes, wgpu::BufferUsages::STORAGE));
+        let entries: Vec<_> = (0..)
+            .zip(&buffers)
+            .map(|(binding, buffer)| wgpu::BindGroupEntry { binding, resource: buffer.as_entire_binding() })
+            .collect();
+        let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("masks"),
+            layout: &layout,
+            entries: &entries,
+        });
+        Some(Self { layout, group })
+    }
+}
+
+/// One for each material, given the first masked triangle, and the alphas of the images that masked ones show, whole words of them. What has
+/// no image shows a single opaque texel.
+fn masks(geometry: &Geometry, first: u32) -> (Vec<Mask>, Vec<u8>) {
+    let mut alphas = vec![u8::MAX; 4];
+    let mut starts = BTreeMap::new();
+    let mut masks = Vec::with_capacity(geometry.materials.len());
+    for material in &geometry.materials {
+        let alpha = material.base_color.w;
+        let mut mask = Mask { start: 0, width: 1, height: 1, repeats: 3, alpha, cutoff: -1.0, first };
+        if let AlphaMode::Mask { cutoff } = material.alpha {
+            mask.cutoff = cutoff;
+            let image = material.base_color_image.and_then(|i| Some((i, geometry.images.get(i)?)));
+            if let Some((i, image)) = image {
+                let start = *starts.entry(i).or_insert_with(|| {
+                    let start = alphas.len() as u32;
+                    alphas.extend(image.rgba.chunks_exact(4).map(|pixel| pixel[3]));
+                    start
+                });
+                let repeats = u32::from(image.repeat[0]) | u32::from(image.repeat[1]) << 1;
+                mask = Mask { start, width: image.width, height: image.height, repeats, ..mask };
+            }
+        }
+        masks.push(mask);
+    }
+    alphas.resize(alphas.len().next_multiple_of(4), 0);
+    (masks, alphas)
+}
+
+/// As `mask_corners` in `covers.wgsl`, four floats each.
+fn corners(geometry: &Geometry, first: u32) -> Vec<[f32; 4]> {
+    let corner = |&i: &u32| {
+        let (uv, color) = (geometry.uvs[i as usize], geometry.colors[i as usize]);
+        [uv.x, uv.y, color.w, 0.0]
+    };
+    geometry.indices[3 * first as usize..].iter().map(corner).collect()
+}
