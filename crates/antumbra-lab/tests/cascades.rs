@@ -21,11 +21,11 @@ fn main() {
         let [one, four] = [1, 4].map(|cascades| run(gpu, &Setting { cascades, ..valley() }, &["evsm"]));
         let scores = [&one, &four].map(|c| c.results.techniques[0].scores.hard);
         let none = one.results.truth.no_shadow.rmse;
-        // With one view the posts are far thinner than its texels: hardly better than no shadow at all.
+        // With one view the board's shadow is narrower than a texel: hardly better than none at all.
         assert!(scores[0].rmse > 0.85 * none, "{} {none}", scores[0].rmse);
         assert!(scores[1].rmse < 0.6 * none, "{} {none}", scores[1].rmse);
         let texels: Vec<f32> = four.results.views.iter().map(|v| v.texel_world).collect();
-        assert!(texels.len() == 4 && texels.is_sorted() && texels[0] < 0.05 * texels[3], "{texels:?}");
+        assert!(texels.len() == 4 && texels.is_sorted() && texels[0] < 0.3 * texels[3], "{texels:?}");
         assert_eq!(one.results.views.len(), 1);
     });
     trials.add("the_ideal_blurs_by_the_texels_of_each_pixel_s_own_map", |gpu| {
@@ -83,7 +83,7 @@ fn run(gpu: &antumbra_testing::Gpu, setting: &Setting, specs: &[&str]) -> Compar
     compare::compare(&adopt(gpu), &request(setting, specs), &Silent).unwrap()
 }
 
-/// Ground of 3 km between slopes of 1.2 km, and a few posts near the camera.
+/// Ground of 3 km between slopes of 1.2 km, and a board of 6 m by 3 m near the camera.
 fn valley() -> Setting {
     let mut mesh = Mesh::default();
     let quad = |mesh: &mut Mesh, corners: [[f32; 3]; 4]| {
@@ -100,11 +100,7 @@ fn valley() -> Setting {
     quad(&mut mesh, [[-w, 0.0, -far], [-w, 0.0, far], [w, 0.0, far], [w, 0.0, -far]]);
     quad(&mut mesh, [[-2000.0, rise, -far], [-2000.0, rise, far], [-w, 0.0, far], [-w, 0.0, -far]]);
     quad(&mut mesh, [[w, 0.0, -far], [w, 0.0, far], [2000.0, rise, far], [2000.0, rise, -far]]);
-    for i in 0..6 {
-        let x = -4.0 + 1.5 * i as f32;
-        let wide = 0.4;
-        quad(&mut mesh, [[x, 0.0, 0.0], [x + wide, 0.0, 0.0], [x + wide, 2.0, 0.0], [x, 2.0, 0.0]]);
-    }
+    quad(&mut mesh, [[-3.0, 0.0, 0.0], [3.0, 0.0, 0.0], [3.0, 3.0, 0.0], [-3.0, 3.0, 0.0]]);
     let scene = Scene {
         name: "valley".into(),
         meshes: vec![mesh],
@@ -124,7 +120,7 @@ fn valley() -> Setting {
         },
         light: Light::Directional { direction: Vec3::new(0.5, -1.0, 0.6).normalize() },
         resolution: [160, 120],
-        map_size: 256,
+        map_size: 512,
         kernel: 5,
         cascades: 1,
         bias: Bias::Auto,
