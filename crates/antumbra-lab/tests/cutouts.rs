@@ -12,7 +12,7 @@ use antumbra::{
 use antumbra_scene::{AlphaMode, Camera, Image, Instance, Light, Material, Mesh, Projection, Scene};
 use antumbra_testing::Trials;
 use common::{Shot, score};
-use glam::{Mat4, Vec2, Vec3, Vec4};
+use glam::{DMat4, Mat4, Vec2, Vec3, Vec4};
 
 const RESOLUTION: [u32; 2] = [256, 192];
 /// Texels along a side of maps: each leaf is two or three of them wide.
@@ -84,7 +84,7 @@ fn leaves(light: Light) -> Scene {
     }
     let position = Vec3::new(0.6, 2.6, 2.4);
     Scene {
-        instances: (0..meshes.len()).map(|mesh| Instance { mesh, world_from_mesh: Mat4::IDENTITY }).collect(),
+        instances: (0..meshes.len()).map(|mesh| Instance::new(mesh, DMat4::IDENTITY)).collect(),
         meshes,
         materials: vec![Material::default(), leaf, solid],
         images: vec![image],

@@ -81,7 +81,7 @@ impl Shot {
         let new = |t: &&dyn Technique| ShadowMap::new(&self.gpu.device, *t, options.clone()).unwrap();
         let mut maps: Vec<ShadowMap> = techniques.iter().map(new).collect();
         let all: Vec<&ShadowMap> = maps.iter().collect();
-        let scene = self.geometry.bounds().unwrap();
+        let scene = self.geometry.bounds_around(self.camera.position).unwrap();
         let view = views::fit(self.stage.camera_matrix(), scene, &self.light, 1, &all).unwrap()[0];
         for map in &mut maps {
             map.prepare(&self.gpu.queue, &[view]).unwrap();
