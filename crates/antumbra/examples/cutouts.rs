@@ -1,5 +1,6 @@
 //! Casters with holes: a card that hovers above a floor, with discs cut out by a mask. Where the technique keeps
 //! depth the renderer's own fragment shader discards; where it keeps triangles, the library asks the caller's WGSL.
+//! Holes are as fine as the map here; `Options::cutouts` has `dpm` and `exact` ask where the light's ray ends.
 //!
 //! `cargo run --release -p antumbra --example cutouts -- card.png dpm`
 
