@@ -1,6 +1,6 @@
 //! The command line.
 
-use crate::{completion, file_arguments::FileArguments};
+use crate::{completion, file_arguments::FileArguments, views::Axis};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use std::path::PathBuf;
@@ -108,6 +108,22 @@ const REPRODUCE_EXAMPLES: &str = "Examples:
 
 What was measured is kept in the folder: run the same command again after an interruption and it goes on.";
 
+/// Which parts of a file are there, and how they stand.
+#[derive(Debug, Clone, Args)]
+pub(crate) struct Arrangement {
+    /// The axis of the file that points upwards
+    #[arg(long, value_enum, default_value_t = Axis::Y, allow_hyphen_values = true, value_name = "AXIS")]
+    pub(crate) up: Axis,
+    /// A node (with all below it), mesh or material that is left out; * stands for any letters. May be given
+    /// more than once
+    #[arg(long, value_name = "NAME")]
+    pub(crate) leave_out: Vec<String>,
+    /// Let the camera see through the backs of single-sided materials, as into a room from outside; they
+    /// cast shadows all the same
+    #[arg(long)]
+    pub(crate) single_sided: bool,
+}
+
 /// The scene and how it is seen.
 #[derive(Debug, Clone, Args)]
 pub(crate) struct SceneArguments {
@@ -140,6 +156,8 @@ pub(crate) struct ViewArguments {
     /// file's first, else a sun that shows shadows
     #[arg(long, allow_hyphen_values = true, value_name = "LIGHT")]
     pub(crate) light: Option<String>,
+    #[command(flatten)]
+    pub(crate) arrangement: Arrangement,
     /// Pixels across and down
     #[arg(long, default_value = "1024x768", value_name = "WxH")]
     pub(crate) resolution: String,

@@ -17,7 +17,7 @@ pub(crate) struct FileArguments {
     /// Animation of a glTF file, by number or name; default: the first
     #[arg(long, value_name = "N|NAME")]
     pub(crate) animation: Option<String>,
-    /// What becomes of glTF surfaces that blend or transmit light
+    /// What becomes of surfaces that blend, dissolve or transmit light
     #[arg(long, value_enum, default_value_t = BlendMode::Mask)]
     pub(crate) blend: BlendMode,
 }

@@ -11,6 +11,22 @@ pub(crate) fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> O
         .map(|(.., k)| k)
 }
 
+/// Up to three known names that resemble a wrong one, or hold it, the most similar first.
+pub(crate) fn similar<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
+    let plain = |text: &str| text.trim_matches('*').to_lowercase();
+    let wanted = plain(name);
+    let mut rated: Vec<(f64, &str)> = known
+        .map(|k| {
+            let holds = !wanted.is_empty() && plain(k).contains(&wanted);
+            let alike = strsim::normalized_damerau_levenshtein(&wanted, &plain(k));
+            (if holds { alike.max(0.9) } else { alike }, k)
+        })
+        .filter(|(alike, _)| *alike > 0.5)
+        .collect();
+    rated.sort_by(|a, b| b.0.total_cmp(&a.0));
+    rated.into_iter().take(3).map(|(_, k)| k).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -27,5 +43,14 @@ mod tests {
         for stranger in ["zzz", "", "shadow", "model", "house", "performance", "map"] {
             assert_eq!(guess(stranger), None, "{stranger}");
         }
+    }
+
+    #[test]
+    fn similar_names_are_listed() {
+        let known = ["SkyDome", "Ground", "house_01", "house_02", "house_03", "house_04"];
+        let guess = |name| similar(name, known.into_iter());
+        assert_eq!(guess("skydom"), ["SkyDome"]);
+        assert_eq!(guess("house").len(), 3);
+        assert!(guess("xyz").is_empty());
     }
 }

@@ -1,15 +1,15 @@
 //! From arguments to triangles, a camera and a light.
 
 use crate::{
-    arguments::{SceneArguments, ViewArguments},
+    arguments::{Arrangement, SceneArguments, ViewArguments},
     file_arguments::FileArguments,
-    views,
+    names, views,
 };
 use antumbra::technique::Bias;
 use antumbra_lab::{default_view, setting::Setting};
 use antumbra_scene::{Camera, Geometry, Light, Projection, Scene, import, procedural};
-use anyhow::{Context, Result, bail};
-use glam::Vec3;
+use anyhow::{Context, Result, anyhow, bail};
+use glam::DVec3;
 use std::{io::Write, path::Path, sync::Arc};
 
 /// Checks the numbers, which is quick.
@@ -41,7 +41,11 @@ pub(crate) fn load(arguments: &SceneArguments) -> Result<Setting> {
 /// The same with [`Bias::Auto`].
 pub(crate) fn load_view(name: &str, arguments: &ViewArguments) -> Result<Setting> {
     let resolution = resolution(&arguments.resolution)?;
-    let scene = open(name, arguments.seed, &arguments.file)?;
+    let mut scene = open(name, arguments.seed, &arguments.file)?;
+    arrange(&mut scene, &arguments.arrangement)?;
+    if arguments.camera.is_none() && scene.cameras.is_empty() {
+        scene.strays().iter().for_each(|strays| note(strays));
+    }
     scene.validate().with_context(|| name.to_string())?;
     let camera = match &arguments.camera {
         None => scene.cameras.first().copied(),
@@ -51,7 +55,7 @@ pub(crate) fn load_view(name: &str, arguments: &ViewArguments) -> Result<Setting
         None => scene.lights.first().copied(),
         Some(text) => views::light(text, &scene).map(Some).with_context(|| format!("--light {text}"))?,
     };
-    let geometry = scene.flatten();
+    let geometry = Geometry { single_sided: arguments.arrangement.single_sided, ..scene.flatten() };
     let (camera, light) = complete(&scene, &geometry, camera, light)?;
     if arguments.cascades > 1 && matches!(light, Light::Spot { .. }) {
         note(&format!("--cascades {}: a spot has one view; cascades are a sun's", arguments.cascades));
@@ -81,16 +85,42 @@ fn complete(
     light: Option<Light>,
 ) -> Result<(Camera, Light)> {
     let chosen = default_view::choose(scene, geometry, camera, light)?;
-    let numbers = |v: Vec3| format!("{:.4},{:.4},{:.4}", v.x, v.y, v.z);
+    let numbers = |v: DVec3| format!("{:.4},{:.4},{:.4}", v.x, v.y, v.z);
     let Camera { position, target, projection, .. } = chosen.0;
     if let (None, Projection::Perspective { fov_y }) = (camera, projection) {
-        let text = format!("{}:{}:{:.1}", numbers(position), numbers(target), fov_y.to_degrees());
+        let [eye, target] = [position, target].map(|point| numbers(scene.placement.in_file(point)));
+        let text = format!("{eye}:{target}:{:.1}", fov_y.to_degrees());
         note(&format!("no camera is given; chosen so that shadows are seen: --camera {text}"));
     }
     if let (None, Light::Directional { direction }) = (light, chosen.1) {
-        note(&format!("no light is given; chosen so that shadows are seen: --light {}", numbers(direction)));
+        let text = numbers(scene.placement.direction_in_file(direction));
+        note(&format!("no light is given; chosen so that shadows are seen: --light {text}"));
     }
     Ok(chosen)
+}
+
+/// Leaves out and turns what the options say.
+fn arrange(scene: &mut Scene, arguments: &Arrangement) -> Result<()> {
+    let parts = scene.instances.len();
+    let left_out = scene.leave_out(&arguments.leave_out).map_err(|unknown| {
+        let near = names::similar(&unknown.pattern, unknown.known.iter().map(String::as_str));
+        let near = if near.is_empty() { String::new() } else { format!("; similar are {}", near.join(", ")) };
+        anyhow!("--leave-out {}: {unknown}{near}", unknown.pattern)
+    })?;
+    if left_out == parts && parts > 0 {
+        bail!(
+            "--leave-out {} leaves out all {parts} parts of the scene",
+            arguments.leave_out.join(" --leave-out ")
+        );
+    }
+    if left_out > 0 {
+        note(&format!("{left_out} of {parts} parts are left out by name"));
+    }
+    scene.stand(arguments.up.into());
+    if arguments.single_sided && scene.materials.iter().all(|m| m.double_sided) {
+        note("--single-sided changes nothing: no material of the scene is single-sided");
+    }
+    Ok(())
 }
 
 /// A line on standard error; one that nobody reads is no reason to stop.
@@ -107,7 +137,7 @@ pub(crate) fn open(name: &str, seed: u64, file: &FileArguments) -> Result<Scene>
     let path = Path::new(name);
     if path.extension().is_none() && !path.exists() {
         let known: Vec<&str> = procedural::all().iter().map(|p| p.name).collect();
-        let nearest = crate::names::nearest(name, known.iter().copied());
+        let nearest = names::nearest(name, known.iter().copied());
         let hint = nearest.map(|n| format!("; did you mean {n}?")).unwrap_or_default();
         bail!("no built-in scene and no file is called '{name}'; built-in: {}{hint}", known.join(", "));
     }

@@ -1,9 +1,37 @@
-//! Cameras and lights from what the command line says of them.
+//! Cameras, lights and axes from what the command line says of them.
 
 use crate::scene::note;
-use antumbra_scene::{Camera, Light, Numbered, Projection, Scene};
+use antumbra_scene::{Camera, Light, Numbered, Projection, Scene, Up};
 use anyhow::{Context, Result, bail};
-use glam::{Quat, Vec3};
+use clap::ValueEnum;
+use glam::{DVec3, Quat, Vec3};
+
+/// An axis of a file, either way.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Axis {
+    X,
+    Y,
+    Z,
+    #[value(name = "-x")]
+    NegativeX,
+    #[value(name = "-y")]
+    NegativeY,
+    #[value(name = "-z")]
+    NegativeZ,
+}
+
+impl From<Axis> for Up {
+    fn from(axis: Axis) -> Self {
+        match axis {
+            Axis::X => Self::X,
+            Axis::Y => Self::Y,
+            Axis::Z => Self::Z,
+            Axis::NegativeX => Self::NegativeX,
+            Axis::NegativeY => Self::NegativeY,
+            Axis::NegativeZ => Self::NegativeZ,
+        }
+    }
+}
 
 /// The way `--camera` is written, for errors.
 const CAMERA: &str = "write eye:target, eye:target:degrees or eye:target:degrees:roll, for example 3,2,5:0,1,0:50, \
@@ -24,7 +52,7 @@ pub(crate) fn camera(text: &str, scene: &Scene) -> Result<Camera> {
         [eye, target, lens, roll] => (eye, target, lens, roll),
         _ => bail!(CAMERA),
     };
-    let (eye, target) = (vector(eye)?, vector(target)?);
+    let [eye, target] = [point(eye, scene)?, point(target, scene)?];
     let projection = if is_parallel {
         Projection::Orthographic { height: length(lens)? }
     } else {
@@ -60,7 +88,7 @@ pub(crate) fn light(text: &str, scene: &Scene) -> Result<Light> {
         return scene.light_of_file(number, copy.unwrap_or(0)).map_err(anyhow::Error::msg);
     }
     let direction = |text: &str| -> Result<Vec3> {
-        let direction = vector(text)?;
+        let direction = scene.placement.direction(vector(text)?).as_vec3();
         direction
             .try_normalize()
             .with_context(|| format!("direction {text} has no length, or one beyond what an f32 holds"))
@@ -77,7 +105,7 @@ pub(crate) fn light(text: &str, scene: &Scene) -> Result<Light> {
     if outer_angle < asked {
         note(&format!("--light {text}: {}", Light::narrowed(asked)));
     }
-    Ok(Light::Spot { position: vector(position)?, direction: direction(axis)?, outer_angle })
+    Ok(Light::Spot { position: point(position, scene)?, direction: direction(axis)?, outer_angle })
 }
 
 /// `N` or `N.K`: the number of a camera or light, and which of its places.
@@ -100,10 +128,21 @@ fn say_copies(kind: &str, number: usize, copy: Option<usize>, numbers: &[Numbere
     }
 }
 
-fn vector(text: &str) -> Result<Vec3> {
-    let parts: Vec<f32> = text.split(',').filter_map(|n| n.trim().parse().ok()).collect();
+/// A point in the file's coordinates, in the scene's.
+fn point(text: &str, scene: &Scene) -> Result<Vec3> {
+    let point = scene.placement.point(vector(text)?);
+    if !point.is_finite() {
+        bail!("'{text}' is beyond what an f32 holds");
+    }
+    Ok(point)
+}
+
+fn vector(text: &str) -> Result<DVec3> {
+    let parts: Vec<f64> = text.split(',').filter_map(|n| n.trim().parse().ok()).collect();
     match parts[..] {
-        [x, y, z] if text.split(',').count() == 3 && Vec3::new(x, y, z).is_finite() => Ok(Vec3::new(x, y, z)),
+        [x, y, z] if text.split(',').count() == 3 && DVec3::new(x, y, z).is_finite() => {
+            Ok(DVec3::new(x, y, z))
+        }
         _ => bail!("'{text}' is not three finite numbers x,y,z"),
     }
 }
@@ -144,6 +183,20 @@ mod tests {
         assert!(camera("-1,2,3:0,0,0", &scene).is_ok() && camera("0", &scene).is_ok());
         assert!(matches!(light("0.3,-1,0", &scene).unwrap(), Light::Directional { .. }));
         assert!(matches!(light("spot:0,4,0:0,-1,0:35", &scene).unwrap(), Light::Spot { .. }));
+    }
+
+    #[test]
+    fn coordinates_are_those_of_the_file() {
+        let mut scene = contact();
+        scene.placement.origin = DVec3::new(5e6, 0.0, -3e6);
+        let read = camera("5000003.25,2,-2999995:5000000,1,-3000000", &scene).unwrap();
+        assert_eq!((read.position, read.target), (Vec3::new(3.25, 2.0, 5.0), Vec3::Y));
+        let spot = light("spot:5000000.125,4,-3000000:0,-1,0:35", &scene).unwrap();
+        assert!(matches!(spot, Light::Spot { position, .. } if position == Vec3::new(0.125, 4.0, 0.0)));
+        scene.stand(Up::Z);
+        let read = camera("5000003.25,2,-2999995:5000000,1,-3000000", &scene).unwrap();
+        assert_eq!(read.position, Vec3::new(3.25, 5.0, -2.0));
+        assert_eq!(light("0,0,-1", &scene).unwrap(), Light::Directional { direction: Vec3::NEG_Y });
     }
 
     #[test]

@@ -179,6 +179,9 @@ fn views(trials: &mut Trials) {
         ("--camera", "1,2,3:1,2,3", &["same point"]),
         ("--camera", "3e38,0,0:-3e38,0,0", &["too far"]),
         ("--camera", "1,2,3:0,0,0:0", &["'0'", "170 degrees"]),
+        ("--camera", "1,2,3:0,0,0:50:x", &["roll 'x'", "360 degrees"]),
+        ("--camera", "ortho:1,2,3:0,0,0", &["for example", "ortho:"]),
+        ("--camera", "ortho:1,2,3:0,0,0:-1", &["height '-1'", "above 0"]),
         ("--camera", "7", &["has 1 camera: 0"]),
         ("--light", "0,0,0", &["no length"]),
         ("--light", "1,2,x", &["'1,2,x'", "x,y,z"]),
@@ -186,6 +189,8 @@ fn views(trials: &mut Trials) {
         ("--light", "spot:0,4,0:0,0,0:35", &["no length"]),
         ("--light", "spot:0,4,0:0,-1,0:95", &["'95'", "90 degrees"]),
         ("--light", "3", &["has 1 light: 0"]),
+        ("--leave-out", "grond", &["nothing in the scene", "similar are ground"]),
+        ("--leave-out", "*", &["leaves out all 3 parts"]),
     ];
     for (option, value, words) in cases {
         trials.add_plain(format!("{option}_{value}"), move || {
