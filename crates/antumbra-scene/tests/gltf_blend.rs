@@ -128,14 +128,20 @@ fn labels_on_bottles_cast() {
 }
 
 #[test]
-fn a_scene_of_glass_alone_is_refused_with_the_reason() {
+fn a_scene_of_glass_alone_keeps_its_glass() {
     let mut document = with_material(json!({
         "name": "glass", "extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}},
     }));
     document["scenes"] = json!([{"nodes": [1]}]);
-    let refusal = try_load(&document, Blend::Mask).unwrap_err();
-    assert!(refusal.contains("has no triangles") && refusal.contains("--blend cast keeps it"), "{refusal}");
-    assert!(try_load(&document, Blend::Cast).is_ok());
+    let (triangles, alpha, notes) = outcome(&document, Blend::Mask);
+    assert_eq!((triangles, alpha), (2, AlphaMode::Opaque));
+    assert!(notes.starts_with("everything lets half of the light or more through; it is kept"), "{notes}");
+    let refusal = try_load(&document, Blend::Ignore).unwrap_err();
+    assert!(refusal.contains("has no triangles"), "{refusal}");
+    assert!(
+        refusal.contains("material 'glass': lets light through and is left out, as asked for"),
+        "{refusal}"
+    );
 }
 
 #[test]

@@ -87,6 +87,8 @@ fn wide_spots_are_narrowed_to_what_one_map_holds() {
     let right = std::f64::consts::FRAC_PI_2;
     for (asked, wanted) in [
         (0.3, 0.3),
+        // In single precision less than in double: rounding narrows nothing.
+        (1.466, 1.466),
         (84_f64.to_radians(), 84_f32.to_radians()),
         (85_f64.to_radians(), Light::MAX_OUTER_ANGLE),
         (right, Light::MAX_OUTER_ANGLE),

@@ -4,7 +4,7 @@
 const NAMED: usize = 3;
 
 /// Notes by kind, in the order in which the kinds turned up.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Notes(Vec<(String, Vec<String>)>);
 
 impl Notes {

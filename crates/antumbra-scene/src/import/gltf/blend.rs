@@ -3,14 +3,15 @@
 use super::material::Passing;
 use crate::import::notes::Notes;
 use crate::import::options::Blend;
-use crate::{AlphaMode, Scene};
+use crate::{AlphaMode, Instance, Scene};
 
 /// A blended surface is there where its alpha is at least this.
 const HALF: f32 = 0.5;
 
 /// Leaves out the instances of surfaces that are there nowhere, makes those opaque that are there
-/// everywhere, and says so.
+/// everywhere, and says so. Where that would leave nothing all of them stay.
 pub(super) fn settle(scene: &mut Scene, passing: &[Passing], blend: Blend, notes: &mut Notes) {
+    let said = notes.clone();
     let mut gone = vec![false; scene.materials.len()];
     let mut used = vec![false; scene.materials.len()];
     for instance in &scene.instances {
@@ -42,7 +43,14 @@ pub(super) fn settle(scene: &mut Scene, passing: &[Passing], blend: Blend, notes
         }
     }
     let meshes = &scene.meshes;
-    scene.instances.retain(|instance| !gone[meshes[instance.mesh].material]);
+    let kept = |instance: &Instance| !gone[meshes[instance.mesh].material];
+    if blend == Blend::Mask && !scene.instances.is_empty() && !scene.instances.iter().any(kept) {
+        *notes = said;
+        notes.say("everything lets half of the light or more through; it is kept and casts, or nothing would be left");
+        scene.materials.iter_mut().for_each(|material| material.alpha = AlphaMode::Opaque);
+        return;
+    }
+    scene.instances.retain(kept);
 }
 
 fn left_out(blend: Blend) -> &'static str {

@@ -99,9 +99,7 @@ impl Asset {
             notes.add(shown, number.reason.clone());
             return Ok(());
         };
-        if let Light::Spot { outer_angle, .. } = taken
-            && f64::from(outer_angle) < angle
-        {
+        if matches!(taken, Light::Spot { .. }) && angle as f32 > Light::MAX_OUTER_ANGLE {
             notes.add(shown, Light::narrowed(angle as f32));
         }
         number.places.push(scene.lights.len());
