@@ -10,6 +10,9 @@ use common::{base64, png_row, quad, quad_bytes, with_buffer};
 use glam::Vec3;
 use serde_json::{Value, json};
 
+/// What is done to a good document.
+type Change = fn(&mut Value);
+
 fn try_load(document: &Value) -> Result<Scene, String> {
     import::gltf_bytes(document.to_string().as_bytes(), "test").map_err(|e| e.to_string())
 }
@@ -172,7 +175,7 @@ fn meshoptimizer_buffers_are_decoded() {
         change(&mut document["bufferViews"][0]["extensions"]["EXT_meshopt_compression"]);
         try_load(&document).unwrap_err()
     };
-    let cases: [(fn(&mut Value), &str); 5] = [
+    let cases: [(Change, &str); 5] = [
         (
             |v| v["count"] = json!(5),
             "bufferViews[0].extensions.EXT_meshopt_compression is 5 × 12 bytes; the view's",

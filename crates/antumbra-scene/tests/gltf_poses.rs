@@ -12,6 +12,9 @@ use common::{floats, quad, with_accessors};
 use glam::Vec3;
 use serde_json::{Value, json};
 
+/// What is done to a good document.
+type Change = fn(&mut Value);
+
 const FLOAT: u32 = 5126;
 
 fn options(change: impl FnOnce(&mut Options)) -> Options {
@@ -168,7 +171,7 @@ fn broken_animations_are_refused_where_they_are_asked_for() {
         assert!(try_load(&document, &Options::default()).is_ok(), "at rest it does not matter");
         try_load(&document, &options(|o| o.time = Some(2.0))).unwrap_err()
     };
-    let cases: [(fn(&mut Value), &str); 7] = [
+    let cases: [(Change, &str); 7] = [
         (|d| d["animations"] = json!([]), "option time is 2; the file has no animations; leave it out"),
         (
             |d| d["animations"][0]["channels"][0]["sampler"] = json!(4),

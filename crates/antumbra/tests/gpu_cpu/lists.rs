@@ -285,7 +285,7 @@ fn thin(r: &mut Random) -> Row {
 /// place these, some hundred texels from the receiver, to within 5·10⁻⁵ of a texel.
 pub(crate) fn thin_triangles_are_met(gpu: &Gpu) {
     let rows = rows(40, thin);
-    let shadows = ShadowMap::new(&gpu.device, &Exact::default(), MAP).unwrap();
+    let shadows = ShadowMap::new(&gpu.device, &Exact, MAP).unwrap();
     let body = "
         let a = take3(0u);
         let b = take3(3u);
@@ -313,7 +313,7 @@ pub(crate) fn thin_triangles_are_met(gpu: &Gpu) {
 pub(crate) fn records_keep_every_bit(gpu: &Gpu) {
     let half = |r: &mut Random| if r.unit() < 0.3 { 65535.0 } else { (r.unit() * 65535.0).floor() };
     let rows = rows(41, |r| row([half(r), half(r), half(r), half(r)]));
-    let shadows = ShadowMap::new(&gpu.device, &Exact::default(), Options::from(MAP).cutouts(true)).unwrap();
+    let shadows = ShadowMap::new(&gpu.device, &Exact, Options::from(MAP).cutouts(true)).unwrap();
     let body = "
         let given = vec2u((u32(take(0u)) << 16u) | u32(take(1u)), (u32(take(2u)) << 16u) | u32(take(3u)));
         let words = record_packed(given.x, given.y);

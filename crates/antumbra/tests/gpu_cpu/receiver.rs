@@ -185,7 +185,7 @@ pub(crate) fn six_spots_are_a_point_light(gpu: &Gpu) {
     let size = Size::square(64);
     let capacity = Capacity { triangles: 24, ..Capacity::default() };
     let options = Options::from(size).views(6).capacity(capacity);
-    let mut shadows = ShadowMap::new(&gpu.device, &technique::Exact::default(), options).unwrap();
+    let mut shadows = ShadowMap::new(&gpu.device, &technique::Exact, options).unwrap();
     let bounds = |half: f32| antumbra::Bounds { min: Vec3::splat(-half), max: Vec3::splat(half) };
     let axes = [Vec3::X, Vec3::Y, Vec3::Z].into_iter().flat_map(|axis| [axis, -axis]);
     let view = |direction| {

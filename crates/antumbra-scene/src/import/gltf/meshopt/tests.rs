@@ -14,7 +14,7 @@ fn vertices() -> Vec<u8> {
     let vertex = |i: u16| {
         let float = 0.25 * f32::from(i) - 2.0;
         let words = [300 * i + i * i, 65535 - 40 * i].map(u16::to_le_bytes).concat();
-        [words, float.to_le_bytes().to_vec(), vec![7, (97 * i & 255) as u8, (i & 1) as u8, (i % 5) as u8]]
+        [words, float.to_le_bytes().to_vec(), vec![7, ((97 * i) & 255) as u8, (i & 1) as u8, (i % 5) as u8]]
             .concat()
     };
     (0..20).flat_map(vertex).collect()
