@@ -177,7 +177,13 @@ fn every_receiver_binds_what_the_technique_names() {
             let module = validate(&receiver(technique.as_ref(), &device, SIZE, 2).text())
                 .unwrap_or_else(|e| panic!("{spec}: {e}"));
             let covers = "fn shadow_covers(tag: u32, triangle: u32, weights: vec3f) -> bool { return tag > triangle; }\n";
-            let asking = receiver(technique.as_ref(), &device, MapSize { asks: true, ..SIZE }, 2).text();
+            let asking = receiver(
+                technique.as_ref(),
+                &device,
+                MapSize { asks: technique.caster().keeps_ids(), ..SIZE },
+                2,
+            )
+            .text();
             validate(&format!("{covers}{asking}")).unwrap_or_else(|e| panic!("{spec}: {e}"));
             let bound: Vec<_> = module.global_variables.iter().filter_map(|(_, v)| v.binding).collect();
             assert_eq!(bound.len(), 1 + technique.bindings().len(), "{spec}");
