@@ -85,7 +85,10 @@ fn complete(
     light: Option<Light>,
 ) -> Result<(Camera, Light)> {
     let chosen = default_view::choose(scene, geometry, camera, light)?;
-    let numbers = |v: DVec3| format!("{:.4},{:.4},{:.4}", v.x, v.y, v.z);
+    let number = |v: f64| {
+        if v == 0.0 || (1e-3..1e9).contains(&v.abs()) { format!("{v:.4}") } else { format!("{v:e}") }
+    };
+    let numbers = |v: DVec3| [v.x, v.y, v.z].map(number).join(",");
     let Camera { position, target, projection, .. } = chosen.0;
     if let (None, Projection::Perspective { fov_y }) = (camera, projection) {
         let [eye, target] = [position, target].map(|point| numbers(scene.placement.in_file(point)));

@@ -270,7 +270,8 @@ fn odd_but_good(trials: &mut Trials) {
         let flat = [&INDICES[..], &[0, 0, 1, 4, 5, 4, 2, 2, 2]].concat();
         folder.write("flat.glb", &glb(&positions(), &flat, |_| ()));
         let small = ["flat.glb", "--resolution", "80x60", "--size", "128", "--rounds", "1", "--grid", "1"];
-        let out = folder.run(&[&["compare"], &small[..], &["--json"]].concat()).good();
+        let view = ["--camera", "4,4,6:0,0,0", "--light", "0.3,-1,-0.2", "--json"];
+        let out = folder.run(&[&["compare"], &small[..], &view[..]].concat()).good();
         let results: serde_json::Value = serde_json::from_str(&out).unwrap();
         assert_eq!(results["scene"]["triangles"], 7);
         assert_eq!(results["truth"]["coverage_explained"]["unexplained"], 0);

@@ -144,7 +144,7 @@ fn biases() {
     let some = ["--settings", "none", "receiver_plane=1,constant_texels=2", "--json"];
     let rows: Value =
         serde_json::from_str(&folder.run(&[&bias[..], &small[..], &some[..]].concat()).good()).unwrap();
-    let [none, plane] = [0, 1].map(|i| &rows["contact"][i]);
+    let [none, plane] = [0, 1].map(|i| &rows["contact"]["rows"][i]);
     assert_eq!(plane["bias"], "constant_texels=2,receiver_plane=1");
     assert!(none["acne"].as_f64().unwrap() > 0.2 && plane["acne"].as_f64().unwrap() < 0.01, "{rows}");
     // The same by eye.

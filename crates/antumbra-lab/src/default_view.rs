@@ -107,9 +107,9 @@ fn closer(geometry: &Geometry, outside: &Camera, nearness: f32) -> Option<Camera
     };
     let [x, y, z] = [along(0)?, along(1)?, along(2)?];
     let (low, high) = (Vec3::new(x[0], y[0], z[0]), Vec3::new(x[1], y[1], z[1]));
-    let backward = (outside.position - outside.target).normalize();
+    let backward = (outside.position.as_dvec3() - outside.target.as_dvec3()).normalize().as_vec3();
     let Projection::Perspective { fov_y } = outside.projection else { return None };
-    let distance = 0.5 * (high - low).length() / (fov_y / 2.0).tan() / nearness;
+    let distance = 0.5 * (high - low).as_dvec3().length() as f32 / (fov_y / 2.0).tan() / nearness;
     let target = (low + high) / 2.0;
     (distance > 0.0).then_some(Camera { position: target + backward * distance, target, ..*outside })
 }

@@ -126,9 +126,16 @@ fn wgsl_in(text: &str) -> Vec<String> {
         let (string, _) = rest[start + 1..].split_once(&format!("{end};"))?;
         Some(string.to_string())
     });
-    strings
-        .filter(|s| ["@vertex", "@fragment", "@compute", "fn caster_"].iter().any(|w| s.contains(w)))
-        .collect()
+    let strings: Vec<String> = strings.filter(|s| s.contains("fn ")).collect();
+    let is_whole =
+        |s: &&String| ["@vertex", "@fragment", "@compute", "fn caster_"].iter().any(|w| s.contains(w));
+    // What is no shader by itself stands before each that calls it.
+    let helpers: String = strings.iter().filter(|s| !is_whole(s)).map(String::as_str).collect();
+    let names: Vec<&str> =
+        helpers.split("fn ").skip(1).filter_map(|f| f.split_inclusive('(').next()).collect();
+    let calls = |s: &str| names.iter().any(|name| s.contains(name));
+    let whole = |s: &String| if calls(s) { helpers.clone() + s } else { s.clone() };
+    strings.iter().filter(is_whole).map(whole).collect()
 }
 
 /// All files of Rust below a folder.
@@ -176,9 +183,9 @@ fn add_document(shaders: &mut Shaders, name: &str, wgsl: &str) {
 
 fn strings_are_found_in_code_and_comments() {
     let found = wgsl_in(
-        "//! const A: &str = \"\n//!     @vertex fn a() {}\";\nlet b: &str = r#\"@fragment \"b\" \"#;\nlet c: &str = \"no\";",
+        "//! const A: &str = \"\n//!     @vertex fn a() {}\";\nlet b: &str = r#\"@fragment fn b() { c(); } \"b\" \"#;\nlet c: &str = \"fn c() {} \";\nlet d: &str = \"no\";",
     );
-    assert_eq!(found, ["\n    @vertex fn a() {}", "@fragment \"b\" "]);
+    assert_eq!(found, ["\n    @vertex fn a() {}", "fn c() {} @fragment fn b() { c(); } \"b\" "]);
 }
 
 fn naga_accepts_every_shader() {

@@ -34,7 +34,8 @@ impl Frame {
         geometry: &Geometry,
     ) -> (Self, Mat4) {
         let aspect = width as f32 / height as f32;
-        let forward = (camera.target - camera.position).normalize();
+        // In f64: squares of tiny and of huge lengths are no numbers in f32.
+        let forward = (camera.target.as_dvec3() - camera.position.as_dvec3()).normalize().as_vec3();
         let right = forward.cross(camera.up).normalize();
         let up = right.cross(forward);
         // Half the picture's height: at distance 1, or everywhere.
