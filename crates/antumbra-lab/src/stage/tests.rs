@@ -31,7 +31,7 @@ fn frame() -> [(&'static str, usize); 8] {
 #[test]
 fn uniforms_have_one_layout() {
     check(WGSL, "Frame", &frame(), size_of::<Frame>()).unwrap();
-    let material = members!(MaterialUniform: base_color, metallic, roughness, cutoff);
+    let material = members!(MaterialUniform: base_color, metallic, roughness, cutoff, mask);
     check(WGSL, "Material", &material, size_of::<MaterialUniform>()).unwrap();
 }
 

@@ -5,15 +5,25 @@ fn ray_area(a: vec3f, b: vec3f) -> f32 {
     return a.x * b.y - a.y * b.x;
 }
 
+/// Width over length from which on a triangle is not thin.
+const ray_thin: f32 = 0.004;
+
 /// Weights, 0 to 1, sum 1, that the corners of a triangle with some area have at the receiver's ray, or
 /// next to it. Corners lie around the ray in x and y.
 ///
-/// Places along the longest edge come from lengths and those across it from areas: areas alone, small
-/// differences of large products where triangles are long and thin, would not know how far along it is.
+/// They come from areas, which know small weights as exactly as large ones: corners that a spot cut off lie so
+/// far before all others that the last bits of their weights count. In long thin triangles areas are small
+/// differences of large products and do not know how far along the longest edge the ray is; there that comes
+/// from lengths, and only the place across from areas.
 fn ray_weights(a: vec3f, b: vec3f, c: vec3f) -> vec3f {
     let areas = vec3f(ray_area(b, c), ray_area(c, a), ray_area(a, b));
-    let shares = areas / (areas.x + areas.y + areas.z);
+    let area = areas.x + areas.y + areas.z;
+    let shares = areas / area;
     let squares = vec3f(dot(c.xy - b.xy, c.xy - b.xy), dot(a.xy - c.xy, a.xy - c.xy), dot(b.xy - a.xy, b.xy - a.xy));
+    if abs(area) > ray_thin * max(squares.x, max(squares.y, squares.z)) {
+        let inside = max(shares, vec3f(0.0));
+        return inside / (inside.x + inside.y + inside.z);
+    }
     if squares.x >= max(squares.y, squares.z) {
         return ray_along(b.xy, c.xy, a.xy, shares.x, squares.x).zxy;
     }
