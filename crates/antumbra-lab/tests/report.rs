@@ -3,7 +3,7 @@
 
 use antumbra_lab::classes::ClassShare;
 use antumbra_lab::files::{FileError, write_atomically};
-use antumbra_lab::metrics::score;
+use antumbra_lab::metrics::{Score, score};
 use antumbra_lab::plane::{Plane, Rgba8Image};
 use antumbra_lab::report::{self, ReportError};
 use antumbra_lab::results::{
@@ -143,7 +143,7 @@ fn results() -> Results {
             coverage_agreement: 0.999,
             coverage_explained: BTreeMap::new(),
             shadowable_pixels: 144,
-            no_shadow: techniques[0].scores.hard,
+            no_shadow: Score { pixel_match: 0.8, ..techniques[0].scores.hard },
             images: TruthImages {
                 hard: "truth-hard.png".into(),
                 light_space: "truth-light-space.png".into(),
@@ -207,6 +207,12 @@ fn words_follow_the_numbers() {
     let mut other = results();
     other.techniques[1].scores.light_space.rmse = 0.9;
     assert!(!page(&other).contains(best));
+    let take = "<p class=\"take\">For filtered shadows in this scene take <strong>";
+    assert!(page(&results()).contains(take));
+    let mut bright = results();
+    bright.truth.no_shadow.pixel_match = 0.98;
+    let bright = page(&bright);
+    assert!(!bright.contains(take) && !bright.contains(best) && bright.contains("next to no shadow"));
     let nothing = Results { techniques: vec![], ..results() };
     assert!(page(&nothing).contains("No technique was compared."));
 }
