@@ -56,6 +56,9 @@ pub(crate) fn run(arguments: &Compare) -> Result<()> {
     Ok(())
 }
 
+/// Extents of scenes that shaders can square.
+const SIZES: std::ops::Range<f32> = 1e-19..1e19;
+
 /// Scores mean little where raster and rays see different things, or where triangles were left out.
 fn warn(results: &Results) {
     let pixels = u64::from(results.resolution[0]) * u64::from(results.resolution[1]);
@@ -65,6 +68,17 @@ fn warn(results: &Results) {
             io::stderr(),
             "warning: raster and rays see different triangles in {unexplained} of {pixels} pixels, for no good \
              reason; do not trust these scores (is the scene of extreme size?)"
+        );
+    }
+    let bounds = &results.scene.bounds;
+    let across = (0..3).map(|k| (bounds.max[k] - bounds.min[k]).abs()).fold(0.0, f32::max);
+    if !SIZES.contains(&across) {
+        let _ = writeln!(
+            io::stderr(),
+            "warning: the scene is {across:e} units across, and squares of such lengths are no 32-bit numbers; do not \
+             trust these scores, or scale the scene to {:e} to {:e} units",
+            SIZES.start,
+            SIZES.end
         );
     }
     if results.truth.shows_no_shadow() {
