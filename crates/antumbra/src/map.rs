@@ -2,27 +2,29 @@
 
 use crate::{
     capabilities::Capabilities,
-    error::{CasterError, Unsupported},
+    error::Unsupported,
     light::{Size, View},
-    pass,
     shader::{self, Cutout, ShaderText},
-    technique::{self, Bias, Binding, Caster, Technique},
+    technique::{Caster, Technique},
 };
 use glam::Vec2;
 use std::sync::atomic::{AtomicU32, Ordering};
 use wgpu::TextureFormat;
 
 mod answer;
+mod build;
 mod capacity;
 mod cast;
 mod caster;
 mod check;
 mod draw;
+mod encode;
 mod explain;
 mod lists;
 mod memory;
 mod mesh;
 mod numbered;
+mod options;
 mod pieces;
 mod pipelines;
 mod ranked;
@@ -30,110 +32,22 @@ mod receiver;
 mod textures;
 mod uniforms;
 
-use answer::Refusal;
 pub use capacity::Capacity;
 pub(crate) use capacity::splits;
 pub use cast::CasterPass;
-use cast::Drawn;
 use caster::TriangleCaster;
 use draw::Draw;
-use lists::{ListSize, Lists};
+use lists::Lists;
 pub use memory::{Lifetime, Memory, MemoryItem};
 pub use mesh::{CasterMesh, MeshPart};
-use numbered::Numbered;
+pub use options::{NoProbe, Options, Probe, TooManyViews};
 pub use pipelines::Pipelines;
-use ranked::{RankedSize, RankedTriangles};
+use ranked::RankedTriangles;
 use textures::Textures;
 use uniforms::Uniforms;
 
 /// Format of the depth that casters draw into.
 pub const DEPTH_FORMAT: TextureFormat = TextureFormat::Depth32Float;
-
-/// How a [`ShadowMap`] is made. A [`Size`] alone is enough.
-#[derive(Debug, Clone)]
-pub struct Options {
-    /// Texels of each view.
-    pub size: Size,
-    /// Most views (cascades) at a time, at least 1.
-    pub views: u32,
-    /// Against shadows of a surface on itself.
-    pub bias: Bias,
-    /// Share it between maps, so that no shader is compiled twice.
-    pub pipelines: Option<Pipelines>,
-    /// Memory for triangles, where the technique keeps them by id.
-    pub capacity: Capacity,
-    /// Whether lookups of techniques that keep triangles by id ask the user's shader about the holes of
-    /// cut-outs, where the light's ray meets their triangles ([`ShadowMap::wgsl`]). Else holes are as coarse as
-    /// texels. Takes 48 bytes more for each triangle of the capacity. Other techniques ignore it.
-    pub cutouts: bool,
-}
-
-impl From<Size> for Options {
-    fn from(size: Size) -> Self {
-        Self {
-            size,
-            views: 1,
-            bias: Bias::Auto,
-            pipelines: None,
-            capacity: Capacity::default(),
-            cutouts: false,
-        }
-    }
-}
-
-impl Options {
-    /// The same with room for that many views.
-    #[must_use]
-    pub fn views(self, views: u32) -> Self {
-        Self { views, ..self }
-    }
-    /// The same with that bias.
-    #[must_use]
-    pub fn bias(self, bias: Bias) -> Self {
-        Self { bias, ..self }
-    }
-    /// The same with shared pipelines.
-    #[must_use]
-    pub fn pipelines(self, pipelines: &Pipelines) -> Self {
-        Self { pipelines: Some(pipelines.clone()), ..self }
-    }
-    /// The same with memory for so many triangles.
-    #[must_use]
-    pub fn capacity(self, capacity: Capacity) -> Self {
-        Self { capacity, ..self }
-    }
-    /// The same with lookups that ask about cut-outs, or without.
-    #[must_use]
-    pub fn cutouts(self, cutouts: bool) -> Self {
-        Self { cutouts, ..self }
-    }
-}
-
-/// Hears of every render pass that is encoded; may attach timestamps to it.
-pub trait Probe {
-    /// Called before the pass `label` (`cast`, `convert`, `blur`, `mips`) of view `view`.
-    fn pass(&mut self, label: &'static str, view: usize) -> Option<wgpu::RenderPassTimestampWrites<'_>>;
-}
-
-/// A probe that measures nothing.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct NoProbe;
-
-impl Probe for NoProbe {
-    fn pass(&mut self, _: &'static str, _: usize) -> Option<wgpu::RenderPassTimestampWrites<'_>> {
-        None
-    }
-}
-
-/// More views than the map was made for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error("{given} views for a shadow map that was made for {room}; see Options::views")]
-pub struct TooManyViews {
-    /// Views given.
-    pub given: usize,
-    /// Views that there is room for.
-    pub room: usize,
-}
 
 /// Textures, pipelines and bindings of one technique at one size.
 ///
@@ -170,157 +84,6 @@ pub struct ShadowMap {
 }
 
 impl ShadowMap {
-    /// Allocates everything for casters that are drawn by [`encode`](Self::encode).
-    ///
-    /// # Errors
-    /// [`Unsupported`]: size, number of views, settings, device, or its memory. In a browser, where devices
-    /// answer later, a lack of memory goes to the caller's error scope or handler; see
-    /// [`new_async`](Self::new_async).
-    pub fn new(
-        device: &wgpu::Device,
-        technique: &dyn Technique,
-        options: impl Into<Options>,
-    ) -> Result<Self, Unsupported> {
-        let options = options.into();
-        let (map, refusal) = answer::ask_now(device, || Self::build(device, technique, &options, None));
-        map?.unless(refusal)
-    }
-
-    /// [`new`](Self::new), which also waits for the answer of devices that do not answer at once: those of
-    /// browsers.
-    ///
-    /// # Errors
-    /// [`Unsupported`], a lack of memory in browsers too.
-    pub async fn new_async(
-        device: &wgpu::Device,
-        technique: &dyn Technique,
-        options: impl Into<Options>,
-    ) -> Result<Self, Unsupported> {
-        let options = options.into();
-        let (map, refusal) = answer::ask(device, || Self::build(device, technique, &options, None));
-        map?.unless(refusal.await)
-    }
-
-    /// Reads depth that the caller renders herself: a 2-D texture of any depth format (beside a
-    /// stencil, the depth alone is read), one layer per view (and caster pass, in the order of
-    /// [`caster_views`](Self::caster_views)), with usage `TEXTURE_BINDING`, z in
-    /// `[0,1]` from near to far as
-    /// [`View::clip_from_world`] gives it. `options.size` and `options.views` are taken from the
-    /// texture. Use [`encode_filter`](Self::encode_filter) instead of `encode`.
-    ///
-    /// # Errors
-    /// [`Unsupported::Depth`] if the texture cannot be read, else as [`new`](Self::new).
-    pub fn from_depth(
-        device: &wgpu::Device,
-        technique: &dyn Technique,
-        depth: &wgpu::Texture,
-        options: impl Into<Options>,
-    ) -> Result<Self, Unsupported> {
-        let views = check::depth(depth, technique.jitter().len() as u32)?;
-        let size = Size { width: depth.width(), height: depth.height() };
-        let options = Options { size, views, ..options.into() };
-        let (map, refusal) =
-            answer::ask_now(device, || Self::build(device, technique, &options, Some(depth)));
-        map?.unless(refusal)
-    }
-
-    /// Itself, unless the device refused what it is made of.
-    fn unless(self, refusal: Option<Refusal>) -> Result<Self, Unsupported> {
-        let technique = self.technique.page().name.to_string();
-        match refusal {
-            None => Ok(self),
-            Some(Refusal::Memory) => {
-                let Size { width, height } = self.size;
-                let bytes = self.memory().items.iter().map(|item| item.bytes).sum();
-                Err(Unsupported::Memory { technique, width, height, views: self.room, bytes })
-            }
-            Some(Refusal::Invalid(reason)) => Err(Unsupported::Refused { technique, reason }),
-        }
-    }
-
-    fn build(
-        device: &wgpu::Device,
-        technique: &dyn Technique,
-        options: &Options,
-        depth: Option<&wgpu::Texture>,
-    ) -> Result<Self, Unsupported> {
-        technique::check(technique)?;
-        let capabilities = Capabilities::of(device);
-        let maps = technique.maps(&capabilities)?;
-        check::device(device, technique, &maps, options)?;
-        let pipelines = options.pipelines.clone().unwrap_or_else(|| Pipelines::new(device));
-        check::caster(technique, &maps, depth)?;
-        let triangles = match (technique.caster(), maps.first()) {
-            (Caster::Triangles(coverages), Some(map)) => {
-                let room = (options.size, options.views);
-                Some(TriangleCaster::new(device, technique, coverages, map.format, room, &pipelines))
-            }
-            _ => None,
-        };
-        let lists = match technique.caster() {
-            Caster::Lists => {
-                let Options { size, views, capacity, cutouts, .. } = *options;
-                let size = ListSize { size, views, capacity, cutouts };
-                check::lists(device, technique, size)?;
-                Some(Lists::new(device, technique, size, &pipelines))
-            }
-            _ => None,
-        };
-        let ranked = match technique.caster() {
-            Caster::Ranked { keeps } => {
-                let Options { size, views, capacity, cutouts, .. } = *options;
-                let size = RankedSize { size, views, keeps, capacity, cutouts };
-                check::ranked(device, technique, size)?;
-                Some(RankedTriangles::new(device, technique, size, &pipelines))
-            }
-            _ => None,
-        };
-        let compares = technique.bindings().contains(&Binding::Depth);
-        let jitter = technique.jitter();
-        let casting = (compares, jitter.len() as u32);
-        let textures = Textures::new(device, &capabilities, &maps, options, depth, casting);
-        options.bias.check()?;
-        let uniforms = Uniforms::new(device, technique, &maps, options);
-        let steps = pass::plan(technique, &capabilities, &maps, options.size);
-        let draws = (0..options.views)
-            .map(|view| {
-                steps
-                    .iter()
-                    .map(|step| Draw::new(&pipelines, &textures, &uniforms, &maps, step, view))
-                    .collect()
-            })
-            .collect();
-        let (layout, bind_group) = receiver::group(
-            device,
-            technique,
-            &capabilities,
-            &textures,
-            &uniforms,
-            lists.as_ref(),
-            ranked.as_ref(),
-        );
-        Ok(Self {
-            technique: technique.boxed(),
-            capabilities,
-            size: options.size,
-            room: options.views,
-            capacity: options.capacity,
-            asks: technique.caster().keeps_ids() && options.cutouts,
-            textures,
-            uniforms,
-            draws,
-            triangles,
-            lists,
-            ranked,
-            drawn: AtomicU32::new(0),
-            layout,
-            bind_group,
-            views: Vec::with_capacity(options.views as usize),
-            caster_views: Vec::with_capacity(options.views as usize * jitter.len()),
-            jitter,
-        })
-    }
-
     /// Takes the light's views for this frame, nearest first; the first that contains a receiver
     /// is the one that shades it. Without any everything is lit.
     ///
@@ -347,111 +110,6 @@ impl ShadowMap {
             numbered.write(queue, views);
         }
         Ok(())
-    }
-
-    /// Draws the casters of every view and filters what they leave. `draw` gets the view, whose
-    /// [`clip_from_world`](View::clip_from_world) places the casters, and a pass with a depth
-    /// attachment of [`DEPTH_FORMAT`], cleared to 1, and no colour; casters in front of the near plane must be
-    /// clamped (`unclipped_depth`) or moved ([`CASTER_WGSL`](crate::CASTER_WGSL)) onto it. A technique that draws them several
-    /// times asks for each of [`caster_views`](Self::caster_views). If the technique's
-    /// [`caster`](Technique::caster) is not [`Caster::Depth`], the pass has its pipeline and group 0 set, and
-    /// `draw`, which is called once per layer of [`Caster::Triangles`], twice for [`Caster::Lists`], calls
-    /// [`CasterMesh::draw`].
-    ///
-    /// # Errors
-    /// [`CasterError`] if what was drawn is not what the technique keeps. All passes are encoded
-    /// nevertheless, and nothing casts a shadow.
-    pub fn encode(
-        &self,
-        encoder: &mut wgpu::CommandEncoder,
-        draw: impl FnMut(&View, &mut CasterPass<'_>),
-    ) -> Result<(), CasterError> {
-        self.encode_probed(encoder, &mut NoProbe, draw)
-    }
-
-    /// [`encode`](Self::encode) with a probe in every pass.
-    ///
-    /// # Errors
-    /// As `encode`.
-    pub fn encode_probed(
-        &self,
-        encoder: &mut wgpu::CommandEncoder,
-        probe: &mut dyn Probe,
-        mut draw: impl FnMut(&View, &mut CasterPass<'_>),
-    ) -> Result<(), CasterError> {
-        let mut drawn = Drawn::default();
-        let mut draw = |view: &View, pass: &mut CasterPass<'_>| {
-            draw(view, pass);
-            drawn.add(pass);
-        };
-        let last = self.jitter.len() - 1;
-        self.drawn.store(0, Ordering::Relaxed);
-        for view in 0..self.views.len() {
-            let (depth, seen) = (self.textures.caster_target(view, 0), (view, &self.views[view]));
-            if let Some(lists) = &self.lists {
-                lists.encode(encoder, seen, depth, probe, &mut draw);
-            }
-            if let Some(ranked) = &self.ranked {
-                ranked.encode(encoder, seen, depth, probe, &mut draw);
-            }
-            if self.numbered().is_some() {
-                self.drawn.fetch_max(caster::numbered(), Ordering::Relaxed);
-                continue;
-            }
-            for cast in 0..=last {
-                for layer in 0..self.triangles.as_ref().map_or(1, TriangleCaster::passes) {
-                    self.encode_cast(encoder, (view, cast, layer), probe, &mut draw);
-                }
-                let follows = |draw: &Draw| draw.cast.map_or(last, |c| c as usize) == cast;
-                self.encode_view_filter(encoder, view, follows, probe);
-            }
-        }
-        drawn.check(self.technique.as_ref())
-    }
-
-    /// What casters that number triangles have in common.
-    fn numbered(&self) -> Option<&Numbered> {
-        let lists = self.lists.as_ref().map(Lists::numbered);
-        lists.or_else(|| self.ranked.as_ref().map(RankedTriangles::numbered))
-    }
-
-    /// Filters depth that the caller has rendered ([`from_depth`](Self::from_depth)).
-    pub fn encode_filter(&self, encoder: &mut wgpu::CommandEncoder, probe: &mut dyn Probe) {
-        for view in 0..self.views.len() {
-            self.encode_view_filter(encoder, view, |_| true, probe);
-        }
-    }
-
-    fn encode_cast(
-        &self,
-        encoder: &mut wgpu::CommandEncoder,
-        (view, cast, layer): (usize, usize, usize),
-        probe: &mut dyn Probe,
-        draw: &mut impl FnMut(&View, &mut CasterPass<'_>),
-    ) {
-        let target = self.triangles.is_some().then(|| self.textures.map_target(view, layer));
-        let target = target.map(textures::written);
-        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some("shadow cast"),
-            color_attachments: if target.is_some() { std::slice::from_ref(&target) } else { &[] },
-            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-                view: self.textures.caster_target(view, cast),
-                depth_ops: Some(wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(1.0),
-                    store: wgpu::StoreOp::Store,
-                }),
-                stencil_ops: None,
-            }),
-            timestamp_writes: probe.pass("cast", view),
-            occlusion_query_set: None,
-            multiview_mask: None,
-        });
-        if let Some(triangles) = &self.triangles {
-            pass.set_pipeline(triangles.pipeline(&self.views[view], layer));
-            pass.set_bind_group(0, triangles.group(view, layer), &[]);
-        }
-        let mut pass = CasterPass::new(pass, self.triangles.is_some());
-        draw(&self.caster_views[view * self.jitter.len() + cast], &mut pass);
     }
 
     /// For casters with holes, where the technique's caster is not [`Caster::Depth`]: the pipeline to
@@ -522,18 +180,6 @@ impl ShadowMap {
     #[must_use]
     pub fn triangles_drawn(&self) -> u32 {
         self.drawn.load(Ordering::Relaxed)
-    }
-
-    fn encode_view_filter(
-        &self,
-        encoder: &mut wgpu::CommandEncoder,
-        view: usize,
-        now: impl Fn(&Draw) -> bool,
-        probe: &mut dyn Probe,
-    ) {
-        for draw in self.draws[view].iter().filter(|draw| now(draw)) {
-            draw.encode(encoder, probe.pass(draw.label, view));
-        }
     }
 
     /// The views that [`encode`](Self::encode) asks the casters for, in order: those of

@@ -1,0 +1,90 @@
+//! How a shadow map is made, and who listens to its passes.
+
+use super::{Capacity, Pipelines};
+use crate::{light::Size, technique::Bias};
+
+/// How a [`ShadowMap`] is made. A [`Size`] alone is enough.
+#[derive(Debug, Clone)]
+pub struct Options {
+    /// Texels of each view.
+    pub size: Size,
+    /// Most views (cascades) at a time, at least 1.
+    pub views: u32,
+    /// Against shadows of a surface on itself.
+    pub bias: Bias,
+    /// Share it between maps, so that no shader is compiled twice.
+    pub pipelines: Option<Pipelines>,
+    /// Memory for triangles, where the technique keeps them by id.
+    pub capacity: Capacity,
+    /// Whether lookups of techniques that keep triangles by id ask the user's shader about the holes of
+    /// cut-outs, where the light's ray meets their triangles ([`ShadowMap::wgsl`]). Else holes are as coarse as
+    /// texels. Takes 48 bytes more for each triangle of the capacity. Other techniques ignore it.
+    pub cutouts: bool,
+}
+
+impl From<Size> for Options {
+    fn from(size: Size) -> Self {
+        Self {
+            size,
+            views: 1,
+            bias: Bias::Auto,
+            pipelines: None,
+            capacity: Capacity::default(),
+            cutouts: false,
+        }
+    }
+}
+
+impl Options {
+    /// The same with room for that many views.
+    #[must_use]
+    pub fn views(self, views: u32) -> Self {
+        Self { views, ..self }
+    }
+    /// The same with that bias.
+    #[must_use]
+    pub fn bias(self, bias: Bias) -> Self {
+        Self { bias, ..self }
+    }
+    /// The same with shared pipelines.
+    #[must_use]
+    pub fn pipelines(self, pipelines: &Pipelines) -> Self {
+        Self { pipelines: Some(pipelines.clone()), ..self }
+    }
+    /// The same with memory for so many triangles.
+    #[must_use]
+    pub fn capacity(self, capacity: Capacity) -> Self {
+        Self { capacity, ..self }
+    }
+    /// The same with lookups that ask about cut-outs, or without.
+    #[must_use]
+    pub fn cutouts(self, cutouts: bool) -> Self {
+        Self { cutouts, ..self }
+    }
+}
+
+/// Hears of every render pass that is encoded; may attach timestamps to it.
+pub trait Probe {
+    /// Called before the pass `label` (`cast`, `convert`, `blur`, `mips`) of view `view`.
+    fn pass(&mut self, label: &'static str, view: usize) -> Option<wgpu::RenderPassTimestampWrites<'_>>;
+}
+
+/// A probe that measures nothing.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct NoProbe;
+
+impl Probe for NoProbe {
+    fn pass(&mut self, _: &'static str, _: usize) -> Option<wgpu::RenderPassTimestampWrites<'_>> {
+        None
+    }
+}
+
+/// More views than the map was made for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("{given} views for a shadow map that was made for {room}; see Options::views")]
+pub struct TooManyViews {
+    /// Views given.
+    pub given: usize,
+    /// Views that there is room for.
+    pub room: usize,
+}
