@@ -3,7 +3,8 @@
 use antumbra::{
     Capabilities, Parameter, Technique, Unsupported, technique,
     technique::{
-        BiasTerms, Binding, Caster, Class, Constant, Coverage, DepthSpace, Map, Page, Pass, Uniform, Width,
+        Adaptive, BiasTerms, Binding, Caster, Class, Constant, Coverage, DepthSpace, Map, Page, Pass,
+        Uniform, Width,
     },
 };
 
@@ -98,6 +99,9 @@ impl Technique for Broken {
     }
     fn widths(&self) -> Vec<(&'static str, Width)> {
         self.inner.widths()
+    }
+    fn blur(&self) -> Option<Adaptive> {
+        self.inner.blur()
     }
     fn constants(&self) -> Vec<Constant> {
         let mut constants = self.inner.constants();

@@ -2,7 +2,7 @@
 
 use crate::{
     capabilities::Capabilities,
-    kernel::{Kernel, Weights, Width},
+    kernel::{Adaptive, Kernel, Weights, Width},
     parameter::{Field, Parameter, choice},
     table::{MOST_SUMMED, Table},
     technique::{Combine, Constant, Encode, Map, Pass},
@@ -157,13 +157,14 @@ impl Filter {
             Sampling::Anisotropic => "lookup_anisotropic",
             Sampling::Summed => "lookup_summed",
         };
+        let blur = if self.adapted().is_some() { "blur_adaptive" } else { "blur_fixed" };
         let below = match (self.table(values), combine) {
             (Some(table), _) => table.arithmetic(),
             (None, Combine::LogMean(_)) => "level_logarithmic",
             (None, _) if device.filters(values.format) => "level_hardware",
             (None, _) => "level_manual",
         };
-        vec![lookup, below]
+        vec![lookup, below, blur]
     }
 
     /// Compile-time settings of those files.
@@ -184,7 +185,11 @@ impl Filter {
             constants.push(Constant::Number("level_steepness", c));
         }
         if self.sampling == Sampling::Fitted {
-            constants.push(Constant::Number("lookup_blur", self.variance()));
+            constants.push(match self.adapted() {
+                Some(_) => Constant::Count("blur_layers", values.layers),
+                // The same for texels of all sizes.
+                None => Constant::Number("blur_everywhere", self.blur().variance(1.0)),
+            });
         }
         if self.sampling == Sampling::Anisotropic {
             constants.push(Constant::Count("lookup_most_taps", self.anisotropy));
@@ -192,14 +197,15 @@ impl Filter {
         constants
     }
 
-    /// Variance of the blur in squares of texels; 0 where it depends on the view.
+    fn blur(&self) -> Adaptive {
+        Adaptive { width: self.width(), weights: self.weights, sigma_texels: self.sigma }
+    }
+
+    /// See [`Technique::blur`](crate::Technique::blur).
     #[must_use]
-    pub fn variance(&self) -> f32 {
-        if self.width > 0.0 {
-            return 0.0;
-        }
-        let kernel = Kernel::new(self.weights, self.kernel, self.sigma);
-        kernel.offsets().map(|(distance, weight)| distance * distance * weight).sum()
+    pub fn adapted(&self) -> Option<Adaptive> {
+        let asks = self.sampling == Sampling::Fitted && self.width > 0.0 && self.kernel > 1;
+        asks.then(|| self.blur())
     }
 
     /// Texture lookups behind one `lookup_filtered` whose footprint is not stretched.

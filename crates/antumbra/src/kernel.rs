@@ -71,6 +71,12 @@ impl Adaptive {
         side.iter_mut().for_each(|w| *w /= sum);
         (side.map(|w| w as f32), side.iter().rposition(|w| *w > 0.0).unwrap_or(0) as u32)
     }
+
+    /// Variance in such a view, in squares of texels.
+    pub(crate) fn variance(&self, texel_world: f32) -> f32 {
+        let (side, _) = self.side(texel_world);
+        (0u8..).zip(side).map(|(i, weight)| 2.0 * f32::from(i) * f32::from(i) * weight).sum()
+    }
 }
 
 impl Weights {
@@ -158,6 +164,30 @@ mod tests {
                 let change: f32 = a.iter().zip(b).map(|(a, b)| (a - b).abs()).sum();
                 assert!(change < 0.2, "{weights:?} {step}: {change}");
             }
+        }
+    }
+
+    #[test]
+    fn variances_are_those_of_the_weights() {
+        for width in (1..32).step_by(2) {
+            for (weights, sigma_texels) in
+                [(Weights::Gaussian, 0.0), (Weights::Gaussian, 2.5), (Weights::Box, 0.0)]
+            {
+                let taps = Kernel::new(weights, width, sigma_texels);
+                let expected: f32 = taps.offsets().map(|(d, weight)| d * d * weight).sum();
+                for world in [0.0, width as f32 / 8.0] {
+                    let width = Width { texels: width as f32, world };
+                    let found = Adaptive { width, weights, sigma_texels }.variance(0.125);
+                    assert!(
+                        (found - expected).abs() < 1e-5 * expected.max(1.0),
+                        "{width:?}: {found} {expected}"
+                    );
+                }
+            }
+            let width = width as f32;
+            let narrower = Width { texels: 31.0, world: width };
+            let found = Adaptive { width: narrower, weights: Weights::Box, sigma_texels: 0.0 }.variance(1.0);
+            assert!((found - (width * width - 1.0) / 12.0).abs() < 1e-5 * width * width, "{width}: {found}");
         }
     }
 

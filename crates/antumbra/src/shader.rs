@@ -16,6 +16,8 @@ use std::fmt::Write;
 /// Every shared WGSL file by its stem; a folder's name is part of the stem.
 const FILES: &[(&str, &str)] = &[
     ("caster", include_str!("shader/caster.wgsl")),
+    ("blur_adaptive", include_str!("shader/blur/adaptive.wgsl")),
+    ("blur_fixed", include_str!("shader/blur/fixed.wgsl")),
     ("chebyshev", include_str!("shader/chebyshev.wgsl")),
     ("coverage", include_str!("shader/coverage.wgsl")),
     ("key", include_str!("shader/key.wgsl")),
@@ -101,7 +103,11 @@ impl ShaderText {
     /// The technique's own file and all that it needs, constants replaced, needs first. Without what is for
     /// cut-outs alone.
     pub(crate) fn library(technique: &dyn Technique, device: &Capabilities) -> Self {
-        Self::asking(technique, device, false)
+        let mut shader = Self::asking(technique, device, false);
+        if technique.blur().is_some() {
+            shader.push("shadow_blur", NO_BLUR);
+        }
+        shader
     }
 
     /// The same; `asks` says whether it has what is for cut-outs.
@@ -188,6 +194,12 @@ impl ShaderText {
     }
 }
 
+/// For texts that look nothing up.
+const NO_BLUR: &str = "fn shadow_blur(view: u32) -> f32 { return 0.0; }\n";
+
+/// Variance of the blur, for receivers.
+const BLUR: &str = "fn shadow_blur(view: u32) -> f32 { return shadow.views[view].blur; }\n";
+
 /// Ends lines that are for cut-outs alone.
 const CUT_OUTS: &str = "// cut-outs";
 
@@ -266,8 +278,9 @@ pub(crate) fn receiver(
     let name = technique.page().name;
     let widths: String =
         technique.widths().iter().map(|(width, _)| format!(", width_{width}: f32")).collect();
+    let blur = technique.blur().map_or("", |_| ", blur: f32");
     let mut glue = format!(
-        "struct ShadowView {{ clip_from_world: mat4x4f, depth_plane: vec4f, to_light: vec4f, texel_world: f32, near_over_far: f32, reach_x: f32, reach_y: f32{widths} }}\n\
+        "struct ShadowView {{ clip_from_world: mat4x4f, depth_plane: vec4f, to_light: vec4f, texel_world: f32, near_over_far: f32, reach_x: f32, reach_y: f32{widths}{blur} }}\n\
          struct ShadowUniforms {{\n    views: array<ShadowView, {}>,\n    view_count: u32, width: f32, height: f32,\n    constant_texels: f32, slope_texels: f32, normal_offset_texels: f32, grazing_offset_texels: f32,\n    receiver_plane: f32, constant_depth: f32, float_steps: f32,\n",
         size.views
     );
@@ -275,6 +288,7 @@ pub(crate) fn receiver(
         let _ = writeln!(glue, "    setting_{uniform}: f32,");
     }
     let _ = writeln!(glue, "}}\n@group({group}) @binding(0) var<uniform> shadow: ShadowUniforms;");
+    glue += technique.blur().map_or("", |_| BLUR);
     let mut arguments = String::new();
     let maps = technique.maps(device).unwrap_or_default();
     // Further buffers of split arrays come behind all bindings.

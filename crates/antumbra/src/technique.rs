@@ -17,7 +17,7 @@ use std::fmt::Debug;
 
 pub use crate::{
     bias::{Bias, BiasTerms},
-    kernel::Width,
+    kernel::{Adaptive, Width},
 };
 
 /// How a technique gets from depth to visibility.
@@ -283,6 +283,11 @@ pub trait Technique: Debug + Send + Sync {
     /// Kernel widths that its visibility function takes, after the uniforms, in texels of the view.
     fn widths(&self) -> Vec<(&'static str, Width)> {
         Vec::new()
+    }
+    /// The blur of its maps, if its WGSL asks `shadow_blur(view: u32) -> f32` for that one's variance in a
+    /// view, in squares of texels.
+    fn blur(&self) -> Option<Adaptive> {
+        None
     }
     /// Compile-time settings of its WGSL.
     fn constants(&self) -> Vec<Constant> {

@@ -302,19 +302,6 @@ fn views_do_not_matter(gpu: &Gpu, technique: &dyn Technique) -> Result<(), Strin
     Ok(())
 }
 
-/// Whether answers are the same within a tolerance, or, where samplers weigh texels and levels with few bits,
-/// most of them within more.
-fn are_alike(gpu: &Gpu, expected: &[f32], found: &[f32], tolerance: f32) -> Result<(), String> {
-    // A texel or a level that weighs less than half a 256th weighs nothing, though it may hold a power of e
-    // that outweighs all others.
-    let (tolerance, allowed) = if gpu.is_software() { (tolerance, 0) } else { (2e-2, expected.len() / 50) };
-    let differ = expected.iter().zip(found).filter(|(e, f)| (**e - **f).abs() > tolerance).count();
-    match differ <= allowed {
-        true => Ok(()),
-        false => Err(format!("{differ} of {} receivers differ by more than {tolerance}", expected.len())),
-    }
-}
-
 /// Interpolation in the shader gives what the sampler gives, and is told.
 fn fallbacks_agree(gpu: &Gpu, technique: &dyn Technique) -> Result<(), String> {
     let lesser =
@@ -329,14 +316,19 @@ fn fallbacks_agree(gpu: &Gpu, technique: &dyn Technique) -> Result<(), String> {
     // Moments are rounded by 6e-8, which a variance near its floor of 1e-6 magnifies, and a moment
     // bias of 3e-6 too; GPUs interpolate with 8-bit weights besides.
     let has = |uniform| technique.uniforms().iter().any(|(name, _)| *name == uniform);
-    let tolerance = if has("moment_bias") {
-        5e-3
-    } else if has("least_variance") {
-        1e-3
-    } else {
-        1e-4
+    let tolerance = match gpu.is_software() {
+        true if has("moment_bias") => 5e-3,
+        true if has("least_variance") => 1e-3,
+        true => 1e-4,
+        false => 2e-2,
     };
-    are_alike(gpu, &expected, &found, tolerance)?;
+    let differ = expected.iter().zip(&found).filter(|(e, f)| (**e - **f).abs() > tolerance).count();
+    // A texel or a level that weighs less than half a 256th weighs nothing, though it may hold a power of e
+    // that outweighs all others.
+    let allowed = if gpu.is_software() { 0 } else { receivers.len() / 50 };
+    if differ > allowed {
+        return Err(format!("{differ} of {} receivers differ by more than {tolerance}", receivers.len()));
+    }
     let capabilities = Capabilities::of(&lesser.device);
     let interpolates = technique.parts(&capabilities).contains(&"level_manual");
     if let Some(map) = technique.maps(&capabilities).unwrap().first() {
@@ -372,9 +364,9 @@ fn widths_in_the_world_are_texels_of_the_view(gpu: &Gpu, technique: &dyn Techniq
     // Sums in another order; moments magnify their last bits.
     let has = |uniform| technique.uniforms().iter().any(|(name, _)| *name == uniform);
     let tolerance = if has("least_variance") || has("moment_bias") { 5e-3 } else { 1e-4 };
-    // Lookups take the width off the footprint: its last bits choose other weights of levels where those have
-    // few bits.
-    are_alike(gpu, &fixed, &adapted, tolerance)
+    all_of(receivers.iter().zip(fixed.iter().zip(adapted).map(|(f, a)| f - a)), |_, difference| {
+        difference.abs() <= tolerance
+    })
 }
 
 const LAWS: [(&str, Law); 9] = [

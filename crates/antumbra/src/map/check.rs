@@ -42,8 +42,7 @@ pub(super) fn device(
         return Err(Unsupported::Layers { views: options.views, layers, max });
     }
     let most_bytes = limits.max_uniform_buffer_binding_size;
-    let most = most_bytes.saturating_sub(uniforms::bytes(technique, 0))
-        / uniforms::view_bytes(technique.widths().len());
+    let most = most_bytes.saturating_sub(uniforms::bytes(technique, 0)) / uniforms::view_bytes(technique);
     if u64::from(options.views) > most {
         return Err(Unsupported::Feature {
             technique: technique.page().name.into(),

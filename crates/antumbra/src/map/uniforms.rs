@@ -20,8 +20,33 @@ struct ShadowView {
     reach_y: f32,
 }
 
-/// Without widths, which follow it.
+/// Without what follows it.
 const VIEW_BYTES: u64 = size_of::<ShadowView>() as u64;
+
+/// What follows `ShadowView`: widths of kernels in texels, the variance of a blur.
+#[derive(Debug)]
+struct PerView {
+    widths: Vec<Width>,
+    blur: Option<Adaptive>,
+}
+
+impl PerView {
+    fn of(technique: &dyn Technique) -> Self {
+        let widths = technique.widths().into_iter().map(|(_, width)| width).collect();
+        Self { widths, blur: technique.blur() }
+    }
+
+    /// Size of one view's part of the receivers' buffer.
+    fn bytes(&self) -> u64 {
+        let numbers = self.widths.len() + usize::from(self.blur.is_some());
+        (VIEW_BYTES + 4 * numbers as u64).next_multiple_of(16)
+    }
+
+    fn at(&self, texel_world: f32) -> impl Iterator<Item = f32> {
+        let widths = self.widths.iter().map(move |width| width.in_texels(texel_world));
+        widths.chain(self.blur.map(|blur| blur.variance(texel_world)))
+    }
+}
 
 /// Both buffers and the bytes that are written to them each frame.
 #[derive(Debug)]
@@ -36,8 +61,8 @@ pub(super) struct Uniforms {
     scalars: Vec<f32>,
     settings: usize,
     reach: [f32; 2],
-    /// Widths that each view's part of the receivers' buffer ends with.
-    widths: Vec<Width>,
+    /// What each view's part of the receivers' buffer ends with.
+    per_view: PerView,
     /// The blur whose weights each view's convert settings begin with.
     blur: Option<Adaptive>,
 }
@@ -79,13 +104,13 @@ impl Uniforms {
             settings,
             // A lookup within half a texel of the border would read beyond it; so does a kernel.
             reach: [1.0 / width, 1.0 / height].map(|texel| (technique.reach_texels() * texel).min(0.499)),
-            widths: technique.widths().into_iter().map(|(_, width)| width).collect(),
+            per_view: PerView::of(technique),
             blur: blur.into_iter().next(),
         }
     }
 
     pub(super) fn write(&mut self, queue: &wgpu::Queue, views: &[View]) {
-        receiver_bytes(&mut self.bytes, views, self.room, self.reach, &self.widths, &self.scalars);
+        receiver_bytes(&mut self.bytes, views, self.room, self.reach, &self.per_view, &self.scalars);
         queue.write_buffer(&self.receiver, 0, &self.bytes);
 
         let settings = &self.scalars[self.scalars.len() - self.settings..];
@@ -123,12 +148,12 @@ impl Uniforms {
 /// Size of the receivers' buffer: views, their count, nine scalars, settings.
 pub(super) fn bytes(technique: &dyn Technique, views: u32) -> u64 {
     let scalars = 4 * (10 + technique.uniforms().len() as u64);
-    (u64::from(views) * view_bytes(technique.widths().len()) + scalars).next_multiple_of(16)
+    (u64::from(views) * view_bytes(technique) + scalars).next_multiple_of(16)
 }
 
 /// Size of one view's part of the receivers' buffer.
-pub(super) fn view_bytes(widths: usize) -> u64 {
-    (VIEW_BYTES + 4 * widths as u64).next_multiple_of(16)
+pub(super) fn view_bytes(technique: &dyn Technique) -> u64 {
+    PerView::of(technique).bytes()
 }
 
 /// Size of one view's convert settings: blur weights and reach, the view's ratio, settings.
@@ -159,11 +184,11 @@ fn receiver_bytes(
     views: &[View],
     room: usize,
     reach: [f32; 2],
-    widths: &[Width],
+    per_view: &PerView,
     scalars: &[f32],
 ) {
     let blank = <ShadowView as bytemuck::Zeroable>::zeroed();
-    let stride = view_bytes(widths.len()) as usize;
+    let stride = per_view.bytes() as usize;
     bytes.clear();
     for i in 0..room {
         bytes.resize(i * stride, 0);
@@ -177,9 +202,8 @@ fn receiver_bytes(
             reach_y: reach[1],
         });
         bytes.extend_from_slice(bytemuck::bytes_of(&view));
-        for width in widths {
-            let texels = views.get(i).map_or(0.0, |view| width.in_texels(view.texel_world));
-            bytes.extend_from_slice(&texels.to_ne_bytes());
+        for number in views.get(i).into_iter().flat_map(|view| per_view.at(view.texel_world)) {
+            bytes.extend_from_slice(&number.to_ne_bytes());
         }
     }
     bytes.resize(room * stride, 0);

@@ -8,7 +8,7 @@
 //! Annen, Mertens, Bekaert, Seidel, Kautz 2007, "Convolution shadow maps". Eq. 11 there has the
 //! sign of d − z reversed; this is Eq. 13 and 14.
 
-use super::{Binding, Combine, Constant, Encode, Family, Map, Page, Technique, Uniform};
+use super::{Adaptive, Binding, Combine, Constant, Encode, Family, Map, Page, Technique, Uniform};
 use crate::{
     capabilities::Capabilities,
     error::Unsupported,
@@ -187,6 +187,9 @@ impl Technique for Csm {
     fn uniforms(&self) -> Vec<Uniform> {
         let scale = if matches!(self.lift, Lift::Scale | Lift::Both) { 2.0 } else { 1.0 };
         vec![("span", self.span()), ("offset", self.lift_offset()), ("scale", scale)]
+    }
+    fn blur(&self) -> Option<Adaptive> {
+        self.filter.adapted()
     }
     fn constants(&self) -> Vec<Constant> {
         let mut weights: Vec<f32> = self

@@ -14,7 +14,7 @@
 //! Annen, Mertens, Seidel, Flerackers, Kautz 2008, "Exponential shadow maps". Logarithms: Salvi
 //! 2008, "Rendering filtered shadows with exponential shadow maps".
 
-use super::{Binding, Class, Combine, Constant, Encode, Family, Map, Page, Technique, Uniform};
+use super::{Adaptive, Binding, Class, Combine, Constant, Encode, Family, Map, Page, Technique, Uniform};
 use crate::{
     capabilities::Capabilities,
     error::Unsupported,
@@ -241,6 +241,9 @@ impl Technique for Esm {
     fn widths(&self) -> Vec<(&'static str, Width)> {
         let kernel = (self.classifier == Classifier::ZMax).then(|| ("kernel", self.filter.width()));
         kernel.into_iter().collect()
+    }
+    fn blur(&self) -> Option<Adaptive> {
+        self.filter.adapted()
     }
     fn constants(&self) -> Vec<Constant> {
         let own = Constant::Count("esm_logarithms", u32::from(self.is_logarithmic()));

@@ -17,7 +17,7 @@
 //!
 //! Lauritzen & McCool 2008, "Layered variance shadow maps", section 5.
 
-use super::{Binding, Combine, Constant, Encode, Family, Map, Page, Technique, Uniform};
+use super::{Adaptive, Binding, Combine, Constant, Encode, Family, Map, Page, Technique, Uniform};
 use crate::{
     bound,
     capabilities::Capabilities,
@@ -219,6 +219,9 @@ impl Technique for Evsm {
             ("slope", self.slope),
             ("reduction", self.reduction),
         ]
+    }
+    fn blur(&self) -> Option<Adaptive> {
+        self.filter.adapted()
     }
     fn constants(&self) -> Vec<Constant> {
         let warps = match self.moments {

@@ -15,7 +15,7 @@
 //!
 //! Lauritzen & McCool 2008, "Layered variance shadow maps", section 4.
 
-use super::{Binding, Combine, Constant, Encode, Family, Map, Page, Technique, Uniform};
+use super::{Adaptive, Binding, Combine, Constant, Encode, Family, Map, Page, Technique, Uniform};
 use crate::{
     bound,
     capabilities::Capabilities,
@@ -132,6 +132,9 @@ impl Technique for Lvsm {
             ("slope", self.slope),
             ("reduction", self.reduction),
         ]
+    }
+    fn blur(&self) -> Option<Adaptive> {
+        self.filter.adapted()
     }
     fn constants(&self) -> Vec<Constant> {
         let own = Constant::Count("lvsm_intervals", self.intervals);

@@ -39,7 +39,7 @@
 //! Peters & Klein 2015, "Moment shadow mapping"; Peters, Münstermann, Wetzstein, Klein 2017,
 //! "Improved moment shadow maps", for the transform on \[−1,1].
 
-use super::{Binding, Combine, Constant, Encode, Family, Map, Page, Technique, Uniform};
+use super::{Adaptive, Binding, Combine, Constant, Encode, Family, Map, Page, Technique, Uniform};
 use crate::{
     bound,
     capabilities::Capabilities,
@@ -155,6 +155,9 @@ impl Technique for Msm {
     }
     fn uniforms(&self) -> Vec<Uniform> {
         vec![("moment_bias", self.bias_share()), ("reduction", self.reduction)]
+    }
+    fn blur(&self) -> Option<Adaptive> {
+        self.filter.adapted()
     }
     fn constants(&self) -> Vec<Constant> {
         let own = Constant::Count("msm_transformed", u32::from(self.format == Format::Unorm16));

@@ -6,7 +6,7 @@
 //!
 //! Donnelly & Lauritzen 2006, "Variance shadow maps".
 
-use super::{Binding, Combine, Constant, Encode, Family, Map, Page, Technique, Uniform};
+use super::{Adaptive, Binding, Combine, Constant, Encode, Family, Map, Page, Technique, Uniform};
 use crate::{
     bound,
     capabilities::Capabilities,
@@ -141,6 +141,9 @@ impl Technique for Vsm {
             ("reduction", self.reduction),
             ("slope", self.slope),
         ]
+    }
+    fn blur(&self) -> Option<Adaptive> {
+        self.filter.adapted()
     }
     fn constants(&self) -> Vec<Constant> {
         let receiver = u32::from(self.slope_of == SlopeOf::Receiver);

@@ -20,8 +20,8 @@ fn layout(module: &naga::Module, name: &str) -> Layout {
     (rows, *span)
 }
 
-/// `ShadowView` as Rust lays it out, with widths of these names.
-fn rust_view(widths: &[&str]) -> Layout {
+/// `ShadowView` as Rust lays it out, with what follows it for a technique.
+fn rust_view(technique: &dyn Technique) -> Layout {
     macro_rules! row {
         ($field:ident) => {{
             let zero: ShadowView = bytemuck::Zeroable::zeroed();
@@ -39,8 +39,10 @@ fn rust_view(widths: &[&str]) -> Layout {
         row!(reach_y),
     ];
     let base = VIEW_BYTES as u32;
-    rows.extend((0..).zip(widths).map(|(i, name)| (format!("width_{name}"), base + 4 * i, 4)));
-    (rows, view_bytes(widths.len()) as u32)
+    let widths = technique.widths().into_iter().map(|(name, _)| format!("width_{name}"));
+    let blur = technique.blur().map(|_| "blur".to_string());
+    rows.extend((0..).zip(widths.chain(blur)).map(|(i, name)| (name, base + 4 * i, 4)));
+    (rows, view_bytes(technique) as u32)
 }
 
 fn device() -> Capabilities {
@@ -51,22 +53,19 @@ fn size(views: u32) -> shader::MapSize {
     shader::MapSize { views, capacity: crate::Capacity::default(), splits: Default::default(), asks: false }
 }
 
-fn width_names(technique: &dyn Technique) -> Vec<&'static str> {
-    technique.widths().into_iter().map(|(name, _)| name).collect()
-}
-
-fn same(wgsl: &str, widths: &[&str]) -> Result<(), String> {
+fn same(wgsl: &str, technique: &dyn Technique) -> Result<(), String> {
     let module = parse_str(wgsl).map_err(|e| e.emit_to_string(wgsl))?;
-    let (found, expected) = (layout(&module, "ShadowView"), rust_view(widths));
+    let (found, expected) = (layout(&module, "ShadowView"), rust_view(technique));
     if found == expected { Ok(()) } else { Err(format!("WGSL {found:?}, Rust {expected:?}")) }
 }
 
 #[test]
 fn the_view_is_laid_out_alike_in_rust_and_wgsl() {
-    for technique in all().into_iter().chain([parse("esm.classifier=zmax").unwrap()]) {
-        let text = shader::receiver(technique.as_ref(), &device(), size(3), 0).text();
-        let widths = width_names(technique.as_ref());
-        same(&text, &widths).unwrap();
+    let further = ["esm.classifier=zmax", "vsm.width=0.1", "esm.classifier=zmax,width=0.1"];
+    for technique in all().into_iter().chain(further.map(|spec| parse(spec).unwrap())) {
+        let technique = technique.as_ref();
+        let text = shader::receiver(technique, &device(), size(3), 0).text();
+        same(&text, technique).unwrap();
         let module = parse_str(&text).unwrap();
         let stride = module
             .types
@@ -80,22 +79,22 @@ fn the_view_is_laid_out_alike_in_rust_and_wgsl() {
                 _ => None,
             })
             .unwrap();
-        assert_eq!(u64::from(stride), view_bytes(widths.len()));
+        assert_eq!(u64::from(stride), view_bytes(technique));
         // Negative controls: two members swapped, one of another type.
         let swapped = text
             .replace("near_over_far: f32, reach_x: f32", "reach_x: f32, near_over_far: f32")
             .replace("depth_plane: vec4f, to_light: vec4f", "to_light: vec4f, depth_plane: vec4f");
         assert_ne!(swapped, text);
-        same(&swapped, &widths).unwrap_err();
-        same(&text.replace("to_light: vec4f", "to_light: vec2f"), &widths).unwrap_err();
+        same(&swapped, technique).unwrap_err();
+        same(&text.replace("to_light: vec4f", "to_light: vec2f"), technique).unwrap_err();
     }
 }
 
 /// The bytes that `write` writes to the receivers' buffer.
 fn written(technique: &dyn Technique, bias: BiasTerms, size: Size, views: &[View], room: usize) -> Vec<u8> {
     let mut bytes = Vec::new();
-    let widths: Vec<Width> = technique.widths().into_iter().map(|(_, width)| width).collect();
-    receiver_bytes(&mut bytes, views, room, [0.25, 0.125], &widths, &scalars(technique, bias, size));
+    let per_view = PerView::of(technique);
+    receiver_bytes(&mut bytes, views, room, [0.25, 0.125], &per_view, &scalars(technique, bias, size));
     bytes
 }
 
@@ -117,15 +116,19 @@ fn what_is_written_lies_where_the_shader_reads_it() {
         near_over_far: 29.0,
         depth_world: 30.0,
     };
-    for technique in [
+    let [near, far] = [1.0f32, 4.0].map(|square| (-square / (2.0 * 1.1 * 1.1)).exp());
+    let gaussian = 2.0 * (near + 4.0 * far) / (1.0 + 2.0 * (near + far));
+    for spec in [
         "hard",
         "pcf.precision=8",
         "vsm.least_variance=0.001,slope=3",
         "csm.offset=0.2",
         "esm.c=33,classifier=zmax,kernel=9,width=140",
+        "csm.weights=box,kernel=9,width=140",
+        "csm.sampling=trilinear,kernel=9,width=140",
         "poisson.kernel=31,width=1400",
     ] {
-        let technique = parse(technique).unwrap();
+        let technique = parse(spec).unwrap();
         let module = parse_str(&shader::receiver(technique.as_ref(), &device(), size(3), 0).text()).unwrap();
         let (members, span) = layout(&module, "ShadowUniforms");
         let bytes = written(technique.as_ref(), bias, Size { width: 640, height: 480 }, &[view, view], 3);
@@ -152,19 +155,22 @@ fn what_is_written_lies_where_the_shader_reads_it() {
         assert_eq!(found, expected);
         // The second view, and the blank third.
         let (rows, _) = layout(&module, "ShadowView");
-        let widths = technique.widths();
-        let base = view_bytes(widths.len()) as u32;
+        let base = view_bytes(technique.as_ref()) as u32;
         assert_eq!(float(base + 4 * 7), 7.0);
         assert_eq!(float(base + rows[1].1), 20.0);
         assert_eq!(float(base + rows[2].1), 24.0);
         let tail: Vec<f32> = rows[3..].iter().map(|(_, offset, _)| float(base + offset)).collect();
         // 140 and 1400 world units in texels of 28; the latter is more than 31 texels.
-        let texels = match technique.page().name {
-            "esm" => vec![5.0],
+        // A box of five has the variance (5² − 1) / 12, the Gaussian of σ = 1.1 by its taps.
+        let further = match spec.split(['.', ',']).next().unwrap() {
+            "esm" => vec![5.0, gaussian],
+            "csm" if spec.contains("box") => vec![2.0],
             "poisson" => vec![31.0],
             _ => Vec::new(),
         };
-        assert_eq!(tail, [vec![28.0, 29.0, 0.25, 0.125], texels].concat());
+        let expected = [vec![28.0, 29.0, 0.25, 0.125], further].concat();
+        assert_eq!(tail.len(), expected.len(), "{spec}");
+        assert!(tail.iter().zip(&expected).all(|(f, e)| (f - e).abs() < 1e-6), "{spec}: {tail:?}");
         assert!(bytes[2 * base as usize..3 * base as usize].iter().all(|b| *b == 0));
     }
 }

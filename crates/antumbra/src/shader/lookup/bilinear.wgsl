@@ -4,7 +4,7 @@
 alias LookupMap = texture_2d_array<f32>;
 
 /// The finest level.
-fn lookup_level(size: vec2f, ddx: vec2f, ddy: vec2f) -> f32 {
+fn lookup_level(size: vec2f, layer: u32, ddx: vec2f, ddy: vec2f) -> f32 {
     return 0.0;
 }
 

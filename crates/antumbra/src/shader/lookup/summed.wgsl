@@ -45,7 +45,7 @@ fn lookup_cover(low: f32, high: f32) -> vec3f {
 }
 
 /// The level at which a texel covers the longer side of the pixel's footprint, and so all that is read.
-fn lookup_level(size: vec2f, ddx: vec2f, ddy: vec2f) -> f32 {
+fn lookup_level(size: vec2f, layer: u32, ddx: vec2f, ddy: vec2f) -> f32 {
     let x = ddx * size;
     let y = ddy * size;
     return 0.5 * log2(max(max(dot(x, x), dot(y, y)), 1.0));

@@ -1,8 +1,8 @@
 
 /// Level of the map of farthest depths whose texels are at least as wide as those of a lookup: none of its
 /// casters lies outside the four texels around uv.
-fn esm_level(farthest: texture_2d_array<f32>, ddx: vec2f, ddy: vec2f) -> f32 {
-    let wanted = ceil(lookup_level(vec2f(textureDimensions(farthest)), ddx, ddy));
+fn esm_level(farthest: texture_2d_array<f32>, view: u32, ddx: vec2f, ddy: vec2f) -> f32 {
+    let wanted = ceil(lookup_level(vec2f(textureDimensions(farthest)), view, ddx, ddy));
     return min(wanted, f32(textureNumLevels(farthest) - 1u));
 }
 
@@ -22,7 +22,7 @@ fn esm_deepest(farthest: texture_2d_array<f32>, map_sampler: sampler, uv: vec2f,
 /// and by more than `offset` times what the receiver's own plane gains on the way from there: half a
 /// kernel of finest texels and two of the level [section 3.3].
 fn esm_failed(farthest: texture_2d_array<f32>, map_sampler: sampler, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f, c: f32, epsilon: f32, offset: f32, kernel: f32) -> bool {
-    let level = esm_level(farthest, ddx, ddy);
+    let level = esm_level(farthest, view, ddx, ddy);
     let slope = dot(abs(plane), 1.0 / vec2f(textureDimensions(farthest)));
     let reach = 0.5 * (kernel - 1.0) + 2.0 * exp2(level);
     let allowed = log(1.0 + epsilon) / c + offset * slope * reach;
