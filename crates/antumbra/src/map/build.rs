@@ -54,7 +54,7 @@ impl ShadowMap {
     /// stencil, the depth alone is read), one layer per view (and caster pass, in the order of
     /// [`caster_views`](Self::caster_views)), with usage `TEXTURE_BINDING`, z in
     /// `[0,1]` from near to far as
-    /// [`View::clip_from_world`] gives it. `options.size` and `options.views` are taken from the
+    /// [`View::clip_from_world`](crate::View::clip_from_world) gives it. `options.size` and `options.views` are taken from the
     /// texture. Use [`encode_filter`](Self::encode_filter) instead of `encode`.
     ///
     /// # Errors

@@ -16,12 +16,12 @@ use std::sync::atomic::Ordering;
 impl ShadowMap {
     /// Draws the casters of every view and filters what they leave. `draw` gets the view, whose
     /// [`clip_from_world`](View::clip_from_world) places the casters, and a pass with a depth
-    /// attachment of [`DEPTH_FORMAT`], cleared to 1, and no colour; casters in front of the near plane must be
+    /// attachment of [`DEPTH_FORMAT`](crate::DEPTH_FORMAT), cleared to 1, and no colour; casters in front of the near plane must be
     /// clamped (`unclipped_depth`) or moved ([`CASTER_WGSL`](crate::CASTER_WGSL)) onto it. A technique that draws them several
     /// times asks for each of [`caster_views`](Self::caster_views). If the technique's
-    /// [`caster`](Technique::caster) is not [`Caster::Depth`], the pass has its pipeline and group 0 set, and
-    /// `draw`, which is called once per layer of [`Caster::Triangles`], twice for [`Caster::Lists`], calls
-    /// [`CasterMesh::draw`].
+    /// [`caster`](crate::Technique::caster) is not [`Caster::Depth`](crate::technique::Caster::Depth), the pass has its pipeline and group 0 set, and
+    /// `draw`, which is called once per layer of [`Caster::Triangles`](crate::technique::Caster::Triangles), twice for [`Caster::Lists`](crate::technique::Caster::Lists), calls
+    /// [`CasterMesh::draw`](crate::CasterMesh::draw).
     ///
     /// # Errors
     /// [`CasterError`] if what was drawn is not what the technique keeps. All passes are encoded

@@ -3,7 +3,7 @@
 use super::{Capacity, Pipelines};
 use crate::{light::Size, technique::Bias};
 
-/// How a [`ShadowMap`] is made. A [`Size`] alone is enough.
+/// How a [`ShadowMap`](crate::ShadowMap) is made. A [`Size`] alone is enough.
 #[derive(Debug, Clone)]
 pub struct Options {
     /// Texels of each view.
@@ -17,7 +17,7 @@ pub struct Options {
     /// Memory for triangles, where the technique keeps them by id.
     pub capacity: Capacity,
     /// Whether lookups of techniques that keep triangles by id ask the user's shader about the holes of
-    /// cut-outs, where the light's ray meets their triangles ([`ShadowMap::wgsl`]). Else holes are as coarse as
+    /// cut-outs, where the light's ray meets their triangles ([`ShadowMap::wgsl`](crate::ShadowMap::wgsl)). Else holes are as coarse as
     /// texels. Takes 48 bytes more for each triangle of the capacity. Other techniques ignore it.
     pub cutouts: bool,
 }
