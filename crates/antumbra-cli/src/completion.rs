@@ -2,7 +2,7 @@
 
 use crate::arguments::Arguments;
 use antumbra::technique;
-use antumbra_reproduce::target;
+use antumbra_reproduce::catalogue;
 use antumbra_scene::procedural;
 use clap::{
     Arg, Command, CommandFactory, Error,
@@ -30,9 +30,10 @@ pub(crate) const TECHNIQUE_OR_TRUTH: Suggested = Suggested(|| {
 pub(crate) const SCENES: Suggested = Suggested(|| procedural::all().iter().map(|scene| scene.name).collect());
 /// What can be reproduced.
 pub(crate) const TARGETS: Suggested = Suggested(|| {
-    let sources = target::SOURCES.iter().map(|source| source.targets).filter_map(|targets| targets.first());
+    let sources =
+        catalogue::SOURCES.iter().map(|source| source.targets).filter_map(|targets| targets.first());
     let sources = sources.filter_map(|target| target.id.split('/').next());
-    target::all().map(|target| target.id).chain(sources).chain(["all"]).collect()
+    catalogue::all().map(|target| target.id).chain(sources).chain(["all"]).collect()
 });
 
 impl TypedValueParser for Suggested {

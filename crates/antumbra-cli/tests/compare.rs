@@ -140,8 +140,11 @@ fn comparison() {
     let out = folder.run(&arguments).good();
     let results: Results = serde_json::from_str(&out).unwrap();
     assert_eq!(results.schema, SCHEMA);
-    assert_eq!(results.command.join(" "), format!("antumbra {command}"));
-    assert_eq!((results.resolution, results.map_size, results.kernel_texels), ([160, 120], 256, 5));
+    assert_eq!(results.run.command.join(" "), format!("antumbra {command}"));
+    assert_eq!(
+        (results.run.resolution, results.run.map_size, results.run.kernel_texels),
+        ([160, 120], 256, 5)
+    );
     assert!(results.truth.coverage_agreement >= 0.999, "{}", results.truth.coverage_agreement);
     assert_eq!(results.truth.coverage_explained["unexplained"], 0);
     scores(&results);
@@ -219,7 +222,7 @@ fn is_complete(report: &Path, results: &Results) {
         images.extend(&i.classes);
     }
     for image in &images {
-        assert_eq!(png_size(&report.join(image)), results.resolution, "{image}");
+        assert_eq!(png_size(&report.join(image)), results.run.resolution, "{image}");
     }
     let own = ["index.html", "results.json", "results.csv"].map(String::from);
     let expected: BTreeSet<String> = images.into_iter().cloned().chain(own).collect();

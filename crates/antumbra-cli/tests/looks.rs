@@ -60,7 +60,7 @@ fn cascades() {
     let json =
         run(&["compare", "contact", "--techniques", "hard", "vsm", "--grid=1", "--rounds=1", "--json"]);
     let results: Results = serde_json::from_str(&json).unwrap();
-    assert_eq!((results.views.len(), results.cascades.as_deref()), (3, Some("cascades.png")));
+    assert_eq!((results.run.views.len(), results.cascades.as_deref()), (3, Some("cascades.png")));
     assert!(folder.0.join("report/cascades.png").is_file());
     let page = fs::read_to_string(folder.0.join("report/index.html")).unwrap();
     assert!(page.contains("Cascades in colour") && page.contains("3 cascades"));

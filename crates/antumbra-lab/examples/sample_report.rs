@@ -9,7 +9,7 @@ use antumbra_lab::plane::{Plane, Rgba8Image, crop, error_heat_map};
 use antumbra_lab::report;
 use antumbra_lab::results::{
     AdapterFacts, BoundsFacts, CameraFacts, Family, LensFacts, Lifetime, LightFacts, MemoryItem,
-    MemoryResult, PassTime, Program, Results, SCHEMA, SceneFacts, Scores, Spread, TechniqueImages,
+    MemoryResult, PassTime, Program, Results, RunFacts, SCHEMA, SceneFacts, Scores, Spread, TechniqueImages,
     TechniqueResult, TimeMethod, TimeResult, TruthFacts, TruthImages, ViewFacts, Work,
 };
 use std::collections::BTreeMap;
@@ -304,7 +304,7 @@ fn time(passes: &[(&str, f64)]) -> TimeResult {
 
 fn memory(textures: &[(&str, &str, u32, u32, u64, Lifetime)]) -> MemoryResult {
     let item =
-        |&(name, format, layers, mips, bytes, kept): &(&str, &str, u32, u32, u64, Lifetime)| MemoryItem {
+        |&(name, format, layers, mips, bytes, lifetime): &(&str, &str, u32, u32, u64, Lifetime)| MemoryItem {
             name: name.into(),
             format: format.into(),
             width: 1024,
@@ -312,10 +312,10 @@ fn memory(textures: &[(&str, &str, u32, u32, u64, Lifetime)]) -> MemoryResult {
             layers,
             mips,
             bytes,
-            kept,
+            lifetime,
         };
     let items: Vec<MemoryItem> = textures.iter().map(item).collect();
-    let sum = |kept: Lifetime| items.iter().filter(|i| i.kept == kept).map(|i| i.bytes).sum();
+    let sum = |lifetime: Lifetime| items.iter().filter(|i| i.lifetime == lifetime).map(|i| i.bytes).sum();
     MemoryResult { kept_bytes: sum(Lifetime::Kept), transient_bytes: sum(Lifetime::Transient), items }
 }
 
@@ -335,34 +335,36 @@ fn results(truth: &Truth, techniques: Vec<TechniqueResult>) -> Result<Results, B
     let no_shadow = no_shadow_baseline(&truth.hard, &truth.shadowable)?;
     Ok(Results {
         schema: SCHEMA.into(),
-        program: Program { name: "antumbra".into(), version: env!("CARGO_PKG_VERSION").into() },
-        command: ["antumbra", "compare", "a sample", "--kernel", "5"].map(String::from).into(),
-        scene: SceneFacts {
-            name: "Sample report, not a measurement".into(),
-            triangles: 12_480,
-            light: LightFacts::Directional { direction: [0.408, -0.816, 0.408] },
-            camera: CameraFacts {
-                position: [0.0, 1.7, 6.0],
-                target: [0.0, 0.0, 0.0],
-                up: [0.0, 1.0, 0.0],
-                lens: LensFacts::FovYDeg(50.0),
+        run: RunFacts {
+            program: Program { name: "antumbra".into(), version: env!("CARGO_PKG_VERSION").into() },
+            command: ["antumbra", "compare", "a sample", "--kernel", "5"].map(String::from).into(),
+            scene: SceneFacts {
+                name: "Sample report, not a measurement".into(),
+                triangles: 12_480,
+                light: LightFacts::Directional { direction: [0.408, -0.816, 0.408] },
+                camera: CameraFacts {
+                    position: [0.0, 1.7, 6.0],
+                    target: [0.0, 0.0, 0.0],
+                    up: [0.0, 1.0, 0.0],
+                    lens: LensFacts::FovYDeg(50.0),
+                },
+                origin: [0.0; 3],
+                bounds: BoundsFacts { min: [-8.0, 0.0, -8.0], max: [8.0, 2.4, 8.0] },
             },
-            origin: [0.0; 3],
-            bounds: BoundsFacts { min: [-8.0, 0.0, -8.0], max: [8.0, 2.4, 8.0] },
+            resolution: [WIDTH, HEIGHT],
+            map_size: 1024,
+            kernel_texels: 5,
+            bias: "auto".into(),
+            views: vec![ViewFacts { texel_world: 0.01, depth_world: 10.0 }],
+            adapter: AdapterFacts {
+                name: "Sample adapter (times are made up)".into(),
+                driver: "none".into(),
+                backend: "none".into(),
+                device_type: "none".into(),
+                features: vec!["float32-filterable".into(), "timestamp-query".into()],
+            },
         },
-        resolution: [WIDTH, HEIGHT],
-        map_size: 1024,
-        kernel_texels: 5,
-        bias: "auto".into(),
-        views: vec![ViewFacts { texel_world: 0.01, depth_world: 10.0 }],
         cascades: None,
-        adapter: AdapterFacts {
-            name: "Sample adapter (times are made up)".into(),
-            driver: "none".into(),
-            backend: "none".into(),
-            device_type: "none".into(),
-            features: vec!["float32-filterable".into(), "timestamp-query".into()],
-        },
         truth: TruthFacts {
             seconds_build: 0.021,
             seconds_hard: 0.34,

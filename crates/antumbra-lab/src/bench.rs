@@ -1,12 +1,10 @@
 //! Times of techniques and of the ray tracer, without scores: the content of `bench --json`.
 
 use crate::{
-    compare::{self, Contestant, Progress, adapter_facts, facts},
+    compare::{self, Contestant, Progress, facts},
     gpu::Gpu,
     lighting::Lookup,
-    results::{
-        AdapterFacts, Family, LeftOut, MemoryResult, Program, SceneFacts, TimeResult, ViewFacts, Work,
-    },
+    results::{Family, LeftOut, MemoryResult, RunFacts, TimeResult, Work},
     setting::{Setting, Setup},
     timing::{self, Entrant},
 };
@@ -23,24 +21,9 @@ pub const SCHEMA: &str = "antumbra-bench/1";
 pub struct Results {
     /// [`SCHEMA`].
     pub schema: String,
-    /// The program that measured.
-    pub program: Program,
-    /// The command line, program first, one entry per argument.
-    pub command: Vec<String>,
-    /// What was rendered.
-    pub scene: SceneFacts,
-    /// Pixels across and down.
-    pub resolution: [u32; 2],
-    /// Texels along one side of each map.
-    pub map_size: u32,
-    /// Width of kernels that a spec does not set, texels.
-    pub kernel_texels: u32,
-    /// The bias of every technique.
-    pub bias: String,
-    /// The light's views (cascades), nearest first.
-    pub views: Vec<ViewFacts>,
-    /// The graphics adapter.
-    pub adapter: AdapterFacts,
+    /// What was run.
+    #[serde(flatten)]
+    pub run: RunFacts,
     /// The ray tracer.
     pub truth: TruthTime,
     /// Shading without any shadow.
@@ -119,7 +102,7 @@ pub fn measure(
             name: page.name.into(),
             spec: technique::spec(technique),
             title: page.title.into(),
-            family: facts::family(page.family),
+            family: page.family,
             time,
             memory: compare::memory(&contestant.shadows.memory()),
             work: compare::work(&contestant.shadows),
@@ -128,15 +111,7 @@ pub fn measure(
     };
     Ok(Results {
         schema: SCHEMA.into(),
-        program: Program { name: "antumbra".into(), version: env!("CARGO_PKG_VERSION").into() },
-        command,
-        scene: facts::scene(setting)?,
-        resolution: setting.resolution,
-        map_size: setting.map_size,
-        kernel_texels: setting.kernel,
-        bias: setting.bias.to_string(),
-        views: facts::views(&views),
-        adapter: adapter_facts(gpu),
+        run: facts::run(gpu, setting, &views, command)?,
         truth,
         unshadowed,
         techniques: contestants.iter().zip(times).map(timed).collect(),

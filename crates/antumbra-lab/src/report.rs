@@ -108,7 +108,7 @@ fn title(scene: &str) -> &str {
 /// # Errors
 /// [`ReportError::MissingImage`].
 fn html(results: &Results, images: &BTreeMap<String, Vec<u8>>) -> Result<String, ReportError> {
-    let title = title(&results.scene.name);
+    let title = title(&results.run.scene.name);
     let best = answer::best(results, |t| t.scores.light_space.rmse);
     let parts = [
         ("title", text::escape(&format!("{title}: shadow techniques compared"))),
@@ -131,9 +131,9 @@ fn html(results: &Results, images: &BTreeMap<String, Vec<u8>>) -> Result<String,
         ("truth", sections::truth(results)),
         ("adapter", sections::adapter(results)),
         ("explain", sections::explain(results)),
-        ("command", text::escape(&sections::command(&results.command))),
+        ("command", text::escape(&sections::command(&results.run.command))),
         ("definitions", sections::definitions()),
-        ("program", text::escape(&format!("{} {}", results.program.name, results.program.version))),
+        ("program", text::escape(&format!("{} {}", results.run.program.name, results.run.program.version))),
         ("schema", text::escape(&results.schema)),
     ];
     Ok(text::fill(PAGE, &parts))

@@ -17,7 +17,8 @@ mod cost;
 mod csv;
 mod scene;
 
-pub use cost::{Lifetime, MemoryItem, MemoryResult, PassTime, Spread, TimeMethod, TimeResult, Work};
+pub use antumbra::{Lifetime, MemoryItem, technique::Family};
+pub use cost::{MemoryResult, PassTime, Spread, TimeMethod, TimeResult, Work};
 pub use scene::{BoundsFacts, CameraFacts, LensFacts, LightFacts, SceneFacts, ViewFacts};
 
 /// Name and version of the schema.
@@ -28,29 +29,12 @@ pub const SCHEMA: &str = "antumbra-results/1";
 pub struct Results {
     /// [`SCHEMA`].
     pub schema: String,
-    /// The program that measured.
-    pub program: Program,
-    /// The command line, program first, one entry per argument.
-    pub command: Vec<String>,
-    /// What was rendered.
-    pub scene: SceneFacts,
-    /// Width and height of the rendered images, pixels.
-    pub resolution: [u32; 2],
-    /// Width and height of each shadow map, texels.
-    pub map_size: u32,
-    /// Width of the light-space ideal's kernel, texels.
-    pub kernel_texels: u32,
-    /// The bias of every technique. Added later.
-    #[serde(default)]
-    pub bias: String,
-    /// The light's views (cascades), nearest first. Added later.
-    #[serde(default)]
-    pub views: Vec<ViewFacts>,
+    /// What was run.
+    #[serde(flatten)]
+    pub run: RunFacts,
     /// Name of the picture in the colours of the cascades, if there are several. Added later.
     #[serde(default)]
     pub cascades: Option<String>,
-    /// The graphics adapter.
-    pub adapter: AdapterFacts,
     /// The ray-traced truths.
     pub truth: TruthFacts,
     /// One entry per technique and settings, in the order they were asked for.
@@ -65,6 +49,31 @@ pub struct Results {
     /// Names of the other files of the report, filled in when the report is written.
     #[serde(default)]
     pub files: Vec<String>,
+}
+
+/// What was run: program, scene, maps and machine.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct RunFacts {
+    /// The program that measured.
+    pub program: Program,
+    /// The command line, program first, one entry per argument.
+    pub command: Vec<String>,
+    /// What was rendered.
+    pub scene: SceneFacts,
+    /// Width and height of the rendered images, pixels.
+    pub resolution: [u32; 2],
+    /// Width and height of each shadow map, texels.
+    pub map_size: u32,
+    /// Width of kernels that a spec does not set and of the light-space ideal's, texels.
+    pub kernel_texels: u32,
+    /// The bias of every technique. Added later.
+    #[serde(default)]
+    pub bias: String,
+    /// The light's views (cascades), nearest first. Added later.
+    #[serde(default)]
+    pub views: Vec<ViewFacts>,
+    /// The graphics adapter.
+    pub adapter: AdapterFacts,
 }
 
 /// Name and version of a program.
@@ -193,30 +202,6 @@ impl std::fmt::Display for LeftOut {
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("left out: {}", self.0.iter().map(LeftOut::to_string).collect::<Vec<_>>().join("; "))]
 pub struct Refused(pub Vec<LeftOut>);
-
-/// What the map keeps and when it is filtered.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Family {
-    /// Keeps depth; compares, then averages at lookup.
-    Comparison,
-    /// Keeps a linear basis of depth; filters before lookup.
-    Basis,
-    /// Keeps triangles; reconstructs the edge at lookup.
-    Geometry,
-}
-
-impl Family {
-    /// As it is written in JSON.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Comparison => "comparison",
-            Self::Basis => "basis",
-            Self::Geometry => "geometry",
-        }
-    }
-}
 
 /// Error against each truth.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -24,9 +24,9 @@ fn main() {
         // With one view the board's shadow is narrower than a texel: hardly better than none at all.
         assert!(scores[0].rmse > 0.85 * none, "{} {none}", scores[0].rmse);
         assert!(scores[1].rmse < 0.6 * none, "{} {none}", scores[1].rmse);
-        let texels: Vec<f32> = four.results.views.iter().map(|v| v.texel_world).collect();
+        let texels: Vec<f32> = four.results.run.views.iter().map(|v| v.texel_world).collect();
         assert!(texels.len() == 4 && texels.is_sorted() && texels[0] < 0.3 * texels[3], "{texels:?}");
-        assert_eq!(one.results.views.len(), 1);
+        assert_eq!(one.results.run.views.len(), 1);
     });
     trials.add("the_ideal_blurs_by_the_texels_of_each_pixel_s_own_map", |gpu| {
         // Filtered comparison is the ideal but for the size of texels, which this map makes small everywhere.
@@ -46,7 +46,7 @@ fn main() {
         let projection = Projection::Orthographic { height: 12.0 };
         let camera = Camera { up, projection, ..own.camera };
         let results = run(gpu, &Setting { camera, cascades: 3, ..own }, &["hard", "dpm"]).results;
-        assert_eq!(results.views.len(), 3);
+        assert_eq!(results.run.views.len(), 3);
         let agreement = results.truth.coverage_agreement;
         assert!(agreement > 0.99, "{agreement}");
         for technique in &results.techniques {

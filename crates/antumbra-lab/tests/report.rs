@@ -8,7 +8,7 @@ use antumbra_lab::plane::{Plane, Rgba8Image};
 use antumbra_lab::report::{self, ReportError};
 use antumbra_lab::results::{
     AdapterFacts, BoundsFacts, CameraFacts, Family, LeftOut, LensFacts, Lifetime, LightFacts, MemoryItem,
-    MemoryResult, PassTime, Program, Results, ResultsError, SCHEMA, SceneFacts, Scores, Spread,
+    MemoryResult, PassTime, Program, Results, ResultsError, RunFacts, SCHEMA, SceneFacts, Scores, Spread,
     TechniqueImages, TechniqueResult, TimeMethod, TimeResult, TruthFacts, TruthImages, ViewFacts, Work,
 };
 use std::collections::BTreeMap;
@@ -77,7 +77,7 @@ fn technique(spec: &str, title: &str, family: Family, visibility: f32) -> Techni
                 layers: 1,
                 mips: 1,
                 bytes: 1 << 20,
-                kept: Lifetime::Kept,
+                lifetime: Lifetime::Kept,
             }],
             kept_bytes: 1 << 20,
             transient_bytes: 0,
@@ -107,34 +107,36 @@ fn results() -> Results {
     ];
     Results {
         schema: SCHEMA.into(),
-        program: Program { name: "antumbra".into(), version: "0.1.0".into() },
-        command: vec!["antumbra".into(), "it's here.glb".into()],
-        scene: SceneFacts {
-            name: "fence".into(),
-            triangles: 1200,
-            light: LightFacts::Directional { direction: [0.0, -1.0, 0.0] },
-            camera: CameraFacts {
-                position: [0.0, 1.5, 4.0],
-                target: [0.0; 3],
-                up: [0.0, 1.0, 0.0],
-                lens: LensFacts::FovYDeg(45.0),
+        run: RunFacts {
+            program: Program { name: "antumbra".into(), version: "0.1.0".into() },
+            command: vec!["antumbra".into(), "it's here.glb".into()],
+            scene: SceneFacts {
+                name: "fence".into(),
+                triangles: 1200,
+                light: LightFacts::Directional { direction: [0.0, -1.0, 0.0] },
+                camera: CameraFacts {
+                    position: [0.0, 1.5, 4.0],
+                    target: [0.0; 3],
+                    up: [0.0, 1.0, 0.0],
+                    lens: LensFacts::FovYDeg(45.0),
+                },
+                origin: [0.0; 3],
+                bounds: BoundsFacts { min: [-1.0; 3], max: [1.0; 3] },
             },
-            origin: [0.0; 3],
-            bounds: BoundsFacts { min: [-1.0; 3], max: [1.0; 3] },
+            resolution: [12, 12],
+            map_size: 512,
+            kernel_texels: 5,
+            bias: "auto".into(),
+            views: vec![ViewFacts { texel_world: 0.01, depth_world: 10.0 }],
+            adapter: AdapterFacts {
+                name: "a device".into(),
+                driver: "1.2".into(),
+                backend: "Vulkan".into(),
+                device_type: "Cpu".into(),
+                features: vec![],
+            },
         },
-        resolution: [12, 12],
-        map_size: 512,
-        kernel_texels: 5,
-        bias: "auto".into(),
-        views: vec![ViewFacts { texel_world: 0.01, depth_world: 10.0 }],
         cascades: None,
-        adapter: AdapterFacts {
-            name: "a device".into(),
-            driver: "1.2".into(),
-            backend: "Vulkan".into(),
-            device_type: "Cpu".into(),
-            features: vec![],
-        },
         truth: TruthFacts {
             seconds_build: 0.01,
             seconds_hard: 0.1,
@@ -245,8 +247,8 @@ fn what_is_invalid_or_left_out_is_said_and_has_no_rank() {
 fn hostile_strings_stay_text() {
     let mut hostile = results();
     let attack = "</script><script>alert(1)</script>\"'&{{script}}";
-    hostile.scene.name = attack.into();
-    hostile.adapter.driver = attack.into();
+    hostile.run.scene.name = attack.into();
+    hostile.run.adapter.driver = attack.into();
     hostile.techniques[0].title = attack.into();
     hostile.techniques[0].spec = attack.into();
     hostile.techniques[0].explain = vec![attack.into()];
@@ -256,7 +258,7 @@ fn hostile_strings_stay_text() {
     hostile.techniques[0].classes = vec![ClassShare { name: attack.into(), colour: [1; 3], share: 0.5 }];
     hostile.techniques[0].time.passes[0].name = attack.into();
     hostile.truth.coverage_explained.insert(attack.into(), 3);
-    hostile.command.push(attack.into());
+    hostile.run.command.push(attack.into());
     let folder = Folder::new("hostile");
     let out = write(&hostile, &folder.0.join("report")).unwrap();
     let page = fs::read_to_string(out.join("index.html")).unwrap();

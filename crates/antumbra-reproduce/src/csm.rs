@@ -9,8 +9,6 @@ mod receding;
 mod speed;
 mod terms;
 
-pub(crate) use curves::{Step, panel};
-
 pub(crate) const SOURCE: Source = Source {
     key: "csm",
     name: "Annen et al. 2007, Convolution shadow maps",

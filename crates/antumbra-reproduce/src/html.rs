@@ -1,9 +1,10 @@
 //! Pages that open by a double click: pictures and style are inside.
 
 use crate::{
+    catalogue::{SOURCES, source_of},
     page::{Block, Cell, Page, Pictures, Table, Tile, Unit},
     results::{Judged, Record, Reproduction},
-    target::{SOURCES, Target},
+    target::{Source, Target},
     verdict::{Outcome, number},
 };
 use antumbra_lab::{
@@ -20,7 +21,7 @@ const SCRIPT: &str = include_str!("html/sort.js");
 /// The page of one target.
 #[must_use]
 pub fn page(target: &Target, page: &Page, record: &Record, results: &Reproduction) -> String {
-    let source = target.source().map_or("", |s| s.name);
+    let source = source_of(target).map_or("", |s| s.name);
     let blocks: String = page.blocks.iter().map(block).collect();
     let mut note = format!("<p class=\"quiet\">{}</p>", escape(&machine(results)));
     if record.quick {
@@ -68,7 +69,7 @@ pub fn index(results: &Reproduction) -> String {
     document("Reproduction", &body)
 }
 
-fn group(source: &crate::target::Source, results: &Reproduction) -> String {
+fn group(source: &Source, results: &Reproduction) -> String {
     let rows: String = source
         .targets
         .iter()

@@ -16,6 +16,7 @@
 pub mod bench;
 mod brabec;
 pub mod cache;
+pub mod catalogue;
 mod csm;
 mod esm;
 mod gallery;
@@ -27,6 +28,7 @@ pub mod results;
 mod run;
 mod slides;
 mod spsm;
+mod step;
 pub mod study;
 mod table;
 pub mod target;

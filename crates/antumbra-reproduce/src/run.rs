@@ -2,10 +2,10 @@
 
 use crate::{
     bench::Bench,
-    html,
+    catalogue, html,
     page::Page,
     results::{Record, Reproduction, SCHEMA},
-    target::{self, Target},
+    target::Target,
     verdict::Verdict,
 };
 use antumbra::Unsupported;
@@ -58,7 +58,7 @@ pub fn run(options: &Options, done: &dyn Done) -> Result<Reproduction> {
         targets: before.map(|b| b.targets).unwrap_or_default(),
     };
     // Pages that are gone, or that this program does not know.
-    let known = |r: &Record| target::all().any(|t| t.id == r.id) && output.join(&r.file).is_file();
+    let known = |r: &Record| catalogue::all().any(|t| t.id == r.id) && output.join(&r.file).is_file();
     results.targets.retain(known);
     write_index(output, &results)?;
     let seconds = |t: &Target| f64::from(t.seconds[usize::from(options.quick)]);
@@ -77,7 +77,7 @@ pub fn run(options: &Options, done: &dyn Done) -> Result<Reproduction> {
         results.targets.retain(|r| r.id != record.id);
         done.target(&record);
         results.targets.push(record);
-        results.targets.sort_by_key(|r| target::all().position(|t| t.id == r.id));
+        results.targets.sort_by_key(|r| catalogue::all().position(|t| t.id == r.id));
         write_index(output, &results)?;
         expected.set(past + seconds(target));
     }

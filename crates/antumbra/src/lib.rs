@@ -149,7 +149,8 @@
 //!
 //! # Features
 //!
-//! `serde`: settings of techniques, [`Filter`] and [`technique::Bias`] can be saved and loaded.
+//! `serde`: settings of techniques, [`Filter`], [`technique::Bias`] and what a map takes ([`MemoryItem`]) can be
+//! saved and loaded.
 
 /// The code of the README.
 #[cfg(doctest)]

@@ -21,7 +21,8 @@ pub use crate::{
 };
 
 /// How a technique gets from depth to visibility.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "snake_case"))]
 pub enum Family {
     /// Keeps depth; compares many texels at lookup and averages the answers.
     Comparison,

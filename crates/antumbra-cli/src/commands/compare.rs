@@ -61,7 +61,7 @@ const SIZES: std::ops::Range<f32> = 1e-19..1e19;
 
 /// Scores mean little where raster and rays see different things, or where triangles were left out.
 fn warn(results: &Results) {
-    let pixels = u64::from(results.resolution[0]) * u64::from(results.resolution[1]);
+    let pixels = u64::from(results.run.resolution[0]) * u64::from(results.run.resolution[1]);
     let unexplained = results.truth.coverage_explained.get("unexplained").copied().unwrap_or(0);
     if 1000 * unexplained > pixels {
         let _ = writeln!(
@@ -70,7 +70,7 @@ fn warn(results: &Results) {
              reason; do not trust these scores (is the scene of extreme size?)"
         );
     }
-    let bounds = &results.scene.bounds;
+    let bounds = &results.run.scene.bounds;
     let across = (0..3).map(|k| (bounds.max[k] - bounds.min[k]).abs()).fold(0.0, f32::max);
     if !SIZES.contains(&across) {
         let _ = writeln!(
@@ -100,13 +100,13 @@ fn print(out: &mut impl Write, results: &Results) -> Result<()> {
     writeln!(
         out,
         "{}: {} triangles, {}x{} pixels, map {}x{}, kernel {}; raster and rays agree on {:.3} % of pixels",
-        results.scene.name,
-        results.scene.triangles,
-        results.resolution[0],
-        results.resolution[1],
-        results.map_size,
-        results.map_size,
-        results.kernel_texels,
+        results.run.scene.name,
+        results.run.scene.triangles,
+        results.run.resolution[0],
+        results.run.resolution[1],
+        results.run.map_size,
+        results.run.map_size,
+        results.run.kernel_texels,
         100.0 * truth.coverage_agreement,
     )?;
     let deep = |mean: Option<f64>, pixels: u64| match mean {
@@ -178,9 +178,15 @@ fn print(out: &mut impl Write, results: &Results) -> Result<()> {
     if results.valid().any(|t| few(&t)) {
         writeln!(out, "–: fewer than {FEWEST_DEEP} pixels, in brackets, lie deep enough in shadow or light")?;
     }
-    if results.views.len() > 1 {
-        let texels: Vec<String> = results.views.iter().map(|v| significant(v.texel_world.into())).collect();
-        writeln!(out, "{} cascades with texels of {} world units", results.views.len(), texels.join(", "))?;
+    if results.run.views.len() > 1 {
+        let texels: Vec<String> =
+            results.run.views.iter().map(|v| significant(v.texel_world.into())).collect();
+        writeln!(
+            out,
+            "{} cascades with texels of {} world units",
+            results.run.views.len(),
+            texels.join(", ")
+        )?;
     }
     writeln!(
         out,

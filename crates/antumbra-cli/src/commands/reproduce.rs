@@ -3,12 +3,7 @@
 use super::table;
 use crate::{arguments::Reproduce, names, progress::Bar};
 use antumbra_lab::compare::Progress;
-use antumbra_reproduce::{
-    Done, Options,
-    results::Record,
-    target::{self, Target},
-    verdict::Outcome,
-};
+use antumbra_reproduce::{Done, Options, catalogue, results::Record, target::Target, verdict::Outcome};
 use anyhow::{Result, bail};
 use std::io::{self, Write};
 
@@ -45,9 +40,9 @@ fn chosen(names: &[String]) -> Result<Vec<&'static Target>> {
         let wanted = |t: &&Target| {
             name == "all" || t.id == name || t.id.split('/').next().is_some_and(|source| source == name)
         };
-        let found: Vec<&'static Target> = target::all().filter(wanted).collect();
+        let found: Vec<&'static Target> = catalogue::all().filter(wanted).collect();
         if found.is_empty() {
-            let known = target::all().map(|t| t.id).chain(["all"]);
+            let known = catalogue::all().map(|t| t.id).chain(["all"]);
             let nearest = names::nearest(name, known).map(|n| format!("; did you mean {n}?"));
             bail!(
                 "'{name}' is nothing to reproduce; `antumbra reproduce --list` shows what is{}",
@@ -69,7 +64,7 @@ fn list() -> Result<()> {
         0..60 => format!("{seconds} s"),
         _ => format!("{} min {:02} s", seconds / 60, seconds % 60),
     };
-    for source in target::SOURCES {
+    for source in catalogue::SOURCES {
         writeln!(out, "{}", source.name)?;
         let rows: Vec<Vec<String>> = source
             .targets
@@ -79,7 +74,7 @@ fn list() -> Result<()> {
         table::print(out, &["  target", "shows", "takes", "--quick"], &rows)?;
         writeln!(out)?;
     }
-    let total = |i: usize| time(target::all().map(|t| t.seconds[i]).sum());
+    let total = |i: usize| time(catalogue::all().map(|t| t.seconds[i]).sum());
     writeln!(
         out,
         "all: about {} ({} with --quick) on two busy cores without a graphics card",

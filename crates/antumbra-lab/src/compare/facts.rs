@@ -4,8 +4,8 @@ use super::{Contestant, Rendered};
 use crate::{
     gpu::Gpu,
     results::{
-        AdapterFacts, BoundsFacts, CameraFacts, Family, LensFacts, Lifetime, LightFacts, MemoryItem,
-        MemoryResult, SceneFacts, TechniqueResult, TimeResult, ViewFacts, Work,
+        AdapterFacts, BoundsFacts, CameraFacts, LensFacts, Lifetime, LightFacts, MemoryItem, MemoryResult,
+        Program, RunFacts, SceneFacts, TechniqueResult, TimeResult, ViewFacts, Work,
     },
     setting::Setting,
 };
@@ -24,7 +24,7 @@ pub(super) fn technique(contestant: &Contestant, rendered: Rendered, time: TimeR
         name: page.name.into(),
         spec: technique::spec(shadows.technique()),
         title: page.title.into(),
-        family: family(page.family),
+        family: page.family,
         paper: page.paper.into(),
         settings,
         scores,
@@ -52,23 +52,10 @@ fn explain(contestant: &Contestant) -> Vec<String> {
 /// What a shadow map takes, as results say it.
 #[must_use]
 pub fn memory(memory: &Memory) -> MemoryResult {
-    let item = |item: &antumbra::MemoryItem| MemoryItem {
-        name: item.name.clone(),
-        format: item.format.to_lowercase(),
-        width: item.width,
-        height: item.height,
-        layers: item.layers,
-        mips: item.mips,
-        bytes: item.bytes,
-        kept: match item.lifetime {
-            antumbra::Lifetime::Kept => Lifetime::Kept,
-            antumbra::Lifetime::Transient | antumbra::Lifetime::Borrowed => Lifetime::Transient,
-        },
-    };
     MemoryResult {
-        items: memory.items.iter().map(item).collect(),
-        kept_bytes: memory.bytes(antumbra::Lifetime::Kept),
-        transient_bytes: memory.bytes(antumbra::Lifetime::Transient),
+        items: memory.items.clone(),
+        kept_bytes: memory.bytes(Lifetime::Kept),
+        transient_bytes: memory.bytes(Lifetime::Transient),
     }
 }
 
@@ -76,8 +63,8 @@ pub fn memory(memory: &Memory) -> MemoryResult {
 #[must_use]
 pub fn work(shadows: &ShadowMap) -> Work {
     let memory = shadows.memory();
-    let of_texels = |i: &&antumbra::MemoryItem| i.format != "buffer" || i.width > 1;
-    let kept = memory.items.iter().filter(of_texels).filter(|i| i.lifetime == antumbra::Lifetime::Kept);
+    let of_texels = |i: &&MemoryItem| i.format != "buffer" || i.width > 1;
+    let kept = memory.items.iter().filter(of_texels).filter(|i| i.lifetime == Lifetime::Kept);
     let side = |length: u32, mip: u32| u64::from((length >> mip).max(1));
     let size = shadows.size();
     let finest = (side(size.width, 0) * side(size.height, 0)) as f64;
@@ -101,8 +88,23 @@ fn value(text: &str) -> serde_json::Value {
     serde_json::from_str(text).unwrap_or_else(|_| text.into())
 }
 
+/// What was run.
+pub(crate) fn run(gpu: &Gpu, setting: &Setting, views: &[View], command: Vec<String>) -> Result<RunFacts> {
+    Ok(RunFacts {
+        program: Program { name: "antumbra".into(), version: env!("CARGO_PKG_VERSION").into() },
+        command,
+        scene: scene(setting)?,
+        resolution: setting.resolution,
+        map_size: setting.map_size,
+        kernel_texels: setting.kernel,
+        bias: setting.bias.to_string(),
+        views: self::views(views),
+        adapter: adapter_facts(gpu),
+    })
+}
+
 /// What was rendered.
-pub(crate) fn scene(setting: &Setting) -> Result<SceneFacts> {
+fn scene(setting: &Setting) -> Result<SceneFacts> {
     let bounds = setting.geometry.bounds().context("the scene has no triangles")?;
     let camera = &setting.camera;
     Ok(SceneFacts {
@@ -131,18 +133,9 @@ pub(crate) fn scene(setting: &Setting) -> Result<SceneFacts> {
 }
 
 /// The light's views.
-pub(crate) fn views(views: &[View]) -> Vec<ViewFacts> {
+fn views(views: &[View]) -> Vec<ViewFacts> {
     let facts = |v: &View| ViewFacts { texel_world: v.texel_world, depth_world: v.depth_world };
     views.iter().map(facts).collect()
-}
-
-/// As results name it.
-pub(crate) fn family(family: technique::Family) -> Family {
-    match family {
-        technique::Family::Comparison => Family::Comparison,
-        technique::Family::Basis => Family::Basis,
-        technique::Family::Geometry => Family::Geometry,
-    }
 }
 
 /// What a GPU says of itself.

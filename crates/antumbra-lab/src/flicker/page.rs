@@ -150,7 +150,7 @@ fn table(results: &Results) -> String {
         let ratio = technique.rank().map_or("–".into(), |ratio| format!("{ratio:.3}"));
         html += &format!(
             "<tr><th scope=\"row\"><span class=\"mark {}\"></span><span class=\"name\">{}</span><code>{}</code></th><td><b>{ratio}</b></td>",
-            escape(&technique.family),
+            technique.family.name(),
             escape(&technique.title),
             escape(&technique.spec),
         );

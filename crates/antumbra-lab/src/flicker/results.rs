@@ -74,8 +74,8 @@ pub struct TechniqueFlicker {
     pub spec: String,
     /// Name for people.
     pub title: String,
-    /// `comparison`, `basis` or `geometry`.
-    pub family: String,
+    /// How it filters.
+    pub family: Family,
     /// The truth that it is judged by.
     pub promise: Promise,
     /// Flicker against its own truth over that of hard shadow mapping against its own; `null` where

@@ -171,7 +171,7 @@ impl Series {
                 name: page.name.into(),
                 spec,
                 title: page.title.into(),
-                family: page.family.name().into(),
+                family: page.family,
                 promise,
                 ratio_to_hard: ratio(own, base),
                 flicker: frames(&single.flicker, hard.map(|h| &h.flicker)),

@@ -83,7 +83,7 @@ pub(super) fn paragraph(results: &Results) -> String {
         sentences.push("No technique was compared.".into());
     }
     sentences.push(baseline(results));
-    let device = results.adapter.device_type.to_lowercase();
+    let device = results.run.adapter.device_type.to_lowercase();
     if device.contains("cpu") || device.contains("software") {
         sentences.push(
             "Times are those of a software rasteriser: they rank work on this processor, not on a graphics card."

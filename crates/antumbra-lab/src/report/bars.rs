@@ -119,9 +119,10 @@ fn memory_item(technique: &TechniqueResult, largest: f64) -> String {
         .items
         .iter()
         .map(|item| {
-            let lifetime = match item.kept {
+            let lifetime = match item.lifetime {
                 Lifetime::Kept => "kept",
                 Lifetime::Transient => "transient",
+                Lifetime::Borrowed => "borrowed",
             };
             format!(
                 "<tr><th scope=\"row\">{}</th><td><code>{}</code></td><td>{} × {}</td><td>{}</td><td>{}</td>\

@@ -43,7 +43,6 @@ fn light(light: &LightFacts) -> String {
             vector(*position),
             vector(*direction)
         ),
-        LightFacts::Point { position } => format!("point light at {}", vector(*position)),
     }
 }
 
@@ -58,17 +57,17 @@ fn description(pairs: &[(&str, String)]) -> String {
 
 /// What was rendered, in one line.
 pub(super) fn facts(results: &Results) -> String {
-    let [w, h] = results.resolution;
-    let views = results.views.len();
+    let [w, h] = results.run.resolution;
+    let views = results.run.views.len();
     let cascades = (views > 1).then(|| format!("{views} cascades"));
-    let bias = Some(&results.bias).filter(|b| !b.is_empty() && *b != "auto").map(|b| format!("bias {b}"));
+    let bias = Some(&results.run.bias).filter(|b| !b.is_empty() && *b != "auto").map(|b| format!("bias {b}"));
     let facts = [
         format!("{} techniques", results.techniques.len()),
         format!("{w} × {h} pixels"),
-        format!("{0} × {0} texels a map", results.map_size),
-        format!("{0} × {0} texel kernel", results.kernel_texels),
-        format!("{} triangles", count(results.scene.triangles)),
-        results.adapter.name.clone(),
+        format!("{0} × {0} texels a map", results.run.map_size),
+        format!("{0} × {0} texel kernel", results.run.kernel_texels),
+        format!("{} triangles", count(results.run.scene.triangles)),
+        results.run.adapter.name.clone(),
     ];
     facts.iter().chain(&cascades).chain(&bias).map(|fact| format!("<li>{}</li>", escape(fact))).collect()
 }
@@ -83,10 +82,10 @@ pub(super) fn truth(results: &Results) -> String {
         .collect();
     let explained =
         if explained.is_empty() { String::new() } else { format!("; the rest: {}", list(&explained)) };
-    let bounds = &results.scene.bounds;
-    let camera = &results.scene.camera;
+    let bounds = &results.run.scene.bounds;
+    let camera = &results.run.scene.camera;
     description(&[
-        ("Light", escape(&light(&results.scene.light))),
+        ("Light", escape(&light(&results.run.scene.light))),
         (
             "Camera",
             format!(
@@ -99,7 +98,7 @@ pub(super) fn truth(results: &Results) -> String {
         ),
         (
             "Scene bounds",
-            format!("{} to {}{}", vector(bounds.min), vector(bounds.max), relative(results.scene.origin)),
+            format!("{} to {}{}", vector(bounds.min), vector(bounds.max), relative(results.run.scene.origin)),
         ),
         (
             "Shadowable pixels",
@@ -137,7 +136,7 @@ pub(super) fn truth(results: &Results) -> String {
 
 /// The adapter as it names itself.
 pub(super) fn adapter(results: &Results) -> String {
-    let adapter = &results.adapter;
+    let adapter = &results.run.adapter;
     let features = if adapter.features.is_empty() {
         "none beyond the WebGPU minimum".to_owned()
     } else {

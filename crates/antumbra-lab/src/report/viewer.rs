@@ -115,7 +115,7 @@ pub(super) fn heat_maps(results: &Results) -> String {
 }
 
 fn heat_map(results: &Results, technique: &TechniqueResult) -> String {
-    let [w, h] = results.resolution;
+    let [w, h] = results.run.resolution;
     let figures = |truth: &str, file: &str, numbers: String| {
         format!(
             "<button type=\"button\" class=\"map\" data-against=\"{truth}\" data-image=\"{file}\" data-visibility=\"{visibility}\">\

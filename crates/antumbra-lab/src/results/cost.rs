@@ -1,5 +1,6 @@
 //! What a technique costs: time, memory, and what does not depend on the device.
 
+use antumbra::MemoryItem;
 use serde::{Deserialize, Serialize};
 
 /// Cost in time, milliseconds.
@@ -77,37 +78,6 @@ pub struct MemoryResult {
     pub kept_bytes: u64,
     /// Sum over what only the passes need.
     pub transient_bytes: u64,
-}
-
-/// One texture or buffer.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct MemoryItem {
-    /// What it is, e.g. "moments".
-    pub name: String,
-    /// Its format, e.g. "rg32float".
-    pub format: String,
-    /// Texels across.
-    pub width: u32,
-    /// Texels down.
-    pub height: u32,
-    /// Array layers.
-    pub layers: u32,
-    /// Mip levels.
-    pub mips: u32,
-    /// All of it, mips and layers included.
-    pub bytes: u64,
-    /// How long it must live.
-    pub kept: Lifetime,
-}
-
-/// How long a texture must live.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Lifetime {
-    /// Until the last lookup.
-    Kept,
-    /// During the shadow passes; lights can share it.
-    Transient,
 }
 
 /// What a technique takes, whatever runs it.

@@ -39,11 +39,6 @@ pub enum LightFacts {
         /// Half angle of the cone, degrees.
         outer_angle_deg: f32,
     },
-    /// All directions.
-    Point {
-        /// Centre.
-        position: [f32; 3],
-    },
 }
 
 /// A camera, world space.

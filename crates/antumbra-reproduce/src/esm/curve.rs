@@ -2,8 +2,8 @@
 
 use crate::{
     bench::Bench,
-    csm::{Step, panel},
     page::{Block, Cell, Page, Table, Unit},
+    step::{Step, panel},
     verdict::{Verdict, less},
 };
 use anyhow::Result;

@@ -54,9 +54,8 @@ pub enum Problem {
     },
     /// An extension that may move triangles, and is not read, is required.
     #[error(
-        "{element} names {extension}, which is not supported: {remedy}; allowed are {} and those that move no \
-         triangle",
-        super::gltf::EXTENSIONS
+        "{element} names {extension}, which is not supported: {remedy}; allowed are {allowed} and those that move \
+         no triangle"
     )]
     Extension {
         /// Who requires it.
@@ -65,6 +64,8 @@ pub enum Problem {
         extension: String,
         /// What can be done about it.
         remedy: String,
+        /// Names of the extensions that are read.
+        allowed: &'static str,
     },
     /// A value that breaks a rule of the format.
     #[error("{element} is {value}; {allowed}")]

@@ -4,6 +4,7 @@ use crate::light::Size;
 
 /// Whether an allocation holds the shadow map or only serves to make it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "snake_case"))]
 pub enum Lifetime {
     /// Read by receivers.
     Kept,
@@ -15,10 +16,11 @@ pub enum Lifetime {
 
 /// One allocation.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct MemoryItem {
     /// What it is.
     pub name: String,
-    /// Texture format, or `buffer`.
+    /// Texture format, such as `rg32float`, or `buffer`.
     pub format: String,
     /// Texels across (1 for buffers that are not by texel).
     pub width: u32,
@@ -30,7 +32,8 @@ pub struct MemoryItem {
     pub mips: u32,
     /// Bytes of all layers and levels, without the driver's padding.
     pub bytes: u64,
-    /// Kept or transient.
+    /// How long it must live; `kept` in files, which is what the reports of the lab call it.
+    #[cfg_attr(feature = "serde", serde(rename = "kept"))]
     pub lifetime: Lifetime,
 }
 
@@ -46,7 +49,7 @@ impl MemoryItem {
         let bytes = texel * u64::from(layers) * (0..mips).map(level).sum::<u64>();
         Self {
             name: name.into(),
-            format: format!("{:?}", texture.format()),
+            format: format!("{:?}", texture.format()).to_lowercase(),
             width,
             height,
             layers,

@@ -5,7 +5,7 @@ use crate::import::error::Problem;
 use crate::import::notes::Notes;
 
 /// Extensions that are read, for messages.
-pub(crate) const READ: &str = "KHR_lights_punctual, KHR_materials_pbrSpecularGlossiness, \
+const READ: &str = "KHR_lights_punctual, KHR_materials_pbrSpecularGlossiness, \
     KHR_materials_transmission, KHR_mesh_quantization, KHR_meshopt_compression, KHR_node_visibility, \
     KHR_texture_transform, EXT_mesh_gpu_instancing, EXT_meshopt_compression, EXT_texture_webp, \
     CESIUM_RTC and MSFT_lod";
@@ -98,7 +98,7 @@ pub(super) fn unsupported(element: String, extension: &str) -> Problem {
          extensionsRequired if it does not"
             .into()
     };
-    Problem::Extension { element, extension: extension.into(), remedy }
+    Problem::Extension { element, extension: extension.into(), remedy, allowed: READ }
 }
 
 /// Refuses a primitive whose vertices are there in compressed form only.

@@ -25,7 +25,6 @@ use super::options::Options;
 use crate::{Instance, Node, Placement, Scene, SceneError};
 use accessor::{Asset, follow};
 use document::{Document, Instancing, PunctualLight};
-pub(super) use extensions::READ as EXTENSIONS;
 use glam::{DMat4, DQuat, DVec3};
 use hierarchy::Hierarchy;
 use material::{Source, Surfaces};
