@@ -58,7 +58,7 @@ fn answers(
     match technique.caster() {
         Caster::Depth => {
             let flat = flat(gpu, caster);
-            shadows.encode(&mut encoder, |_, pass| {
+            shadows.encode(&mut encoder, |pass| {
                 pass.set_pipeline(&flat);
                 pass.set_scissor_rect(0, 0, columns, SIZE.height);
                 pass.draw(0..3, 0..1);
@@ -66,7 +66,7 @@ fn answers(
         }
         Caster::Triangles(_) | Caster::Lists | Caster::Ranked { .. } => {
             let triangle = triangle(gpu, caster)?;
-            shadows.encode(&mut encoder, |view, pass| triangle.draw(view, pass))?;
+            shadows.encode(&mut encoder, |pass| pass.draw_mesh(&triangle, ..))?;
         }
     }
     let answers = ask(gpu, &shadows, questions, &mut encoder);

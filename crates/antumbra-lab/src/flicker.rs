@@ -119,7 +119,7 @@ pub fn measure(gpu: &Gpu, request: &Request, progress: &dyn Progress) -> Result<
         let camera = stage.camera_matrix_of(&moved.geometry, &moved.camera, &moved.light);
         let views = moved.views(camera, &maps).with_context(at)?;
         let planes = moved.map_views(&views, setting.kernel)?;
-        compare::aim(gpu, &mut stage, &mut contestants, &views)?;
+        compare::aim(gpu, &stage, &mut contestants, &views)?;
         texels.push(views.iter().map(|view| view.texel_world).collect());
         for (contestant, invalid) in contestants.iter_mut().zip(&mut invalid) {
             let drawn = contestant.draw_maps(gpu, &stage);

@@ -5,7 +5,7 @@ use crate::{
     gpu::Gpu,
     paint::{self, Anchor, Colour, INK, Letters},
     plane::{Plane, Rgba8Image, diverging},
-    stage::Stage,
+    stage::{Stage, ViewMatrices},
     texels,
 };
 use antumbra::{DEPTH_FORMAT, ShadowMap, View};
@@ -75,19 +75,18 @@ impl Picture {
     }
 }
 
-/// Linear depth of the casters as a view sees them, whatever the technique keeps, as a picture called `name`. From
-/// now on that is the only view that the stage draws casters for.
+/// Linear depth of the casters as a view sees them, whatever the technique keeps, as a picture called `name`.
 ///
 /// # Errors
 /// A lost device, or no room for the texture.
 pub fn depth(
     gpu: &Gpu,
-    stage: &mut Stage,
+    stage: &Stage,
     view: &View,
     [width, height]: [u32; 2],
     name: &str,
 ) -> Result<Picture> {
-    stage.set_views(gpu, &[*view])?;
+    let matrices = ViewMatrices::new(gpu, stage, &[*view]);
     let target = gpu.target("casters' depth", [width, height], DEPTH_FORMAT);
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     {
@@ -104,7 +103,7 @@ pub fn depth(
             }),
             ..Default::default()
         });
-        stage.draw_depth(view, &mut pass);
+        stage.draw_depth(&matrices, 0, &mut pass);
     }
     gpu.finish(encoder)?;
     let mut planes = texels::planes(DEPTH_FORMAT, [width, height], &gpu.read(&target)?)?;

@@ -68,9 +68,9 @@ impl Setting {
     /// # Errors
     /// As [`set_up`](Self::set_up).
     pub fn set_up_biased(&self, gpu: &Gpu, entries: &[(Box<dyn Technique>, Bias)]) -> Result<Setup> {
-        let mut stage = self.stage(gpu)?;
+        let stage = self.stage(gpu)?;
         let lighting = Lighting::new(gpu, &stage);
-        let (Entered { contestants, left_out }, views) = self.enter(gpu, &mut stage, entries)?;
+        let (Entered { contestants, left_out }, views) = self.enter(gpu, &stage, entries)?;
         Ok(Setup { stage, lighting, contestants, left_out, views })
     }
 
@@ -81,7 +81,7 @@ impl Setting {
     pub fn enter(
         &self,
         gpu: &Gpu,
-        stage: &mut Stage,
+        stage: &Stage,
         entries: &[(Box<dyn Technique>, Bias)],
     ) -> Result<(Entered, Vec<View>)> {
         let mut entered = self.contestants(gpu, stage, entries)?;

@@ -6,7 +6,7 @@
 //! neighbouring pixels see different things.
 
 use crate::gpu::Gpu;
-use antumbra::{Capacity, CasterPass, View};
+use antumbra::{Capacity, CasterPass};
 use antumbra_scene::{AlphaMode, Camera, Geometry, Light};
 use anyhow::{Result, bail};
 use bytemuck::{Pod, Zeroable};
@@ -22,7 +22,7 @@ mod parts;
 mod pipelines;
 pub(crate) mod surfaces;
 
-pub use casters::Casters;
+pub use casters::{Casters, ViewMatrices};
 pub(crate) use frame::Frame;
 use masks::Masks;
 use materials::Materials;
@@ -55,11 +55,6 @@ pub struct Stage {
     frame: Frame,
     frame_buffer: wgpu::Buffer,
     frame_group: wgpu::BindGroup,
-    light_buffer: wgpu::Buffer,
-    light_group: wgpu::BindGroup,
-    /// Bytes from one view's matrix to the next.
-    light_stride: u64,
-    views: Vec<antumbra::View>,
     surfaces: Surfaces,
     capacity: Capacity,
     /// Of the casters' buffers, as bindings can hold them.
@@ -101,20 +96,6 @@ impl Stage {
         let pipelines = Pipelines::new(gpu, &materials.layout, geometry.single_sided);
         use wgpu::BufferUsages as Usage;
         let frame_buffer = gpu.buffer("frame", bytemuck::bytes_of(&frame), Usage::UNIFORM);
-        let light_stride = 64u64.next_multiple_of(u64::from(limits.min_uniform_buffer_offset_alignment));
-        let light_bytes = vec![0; Self::MOST_VIEWS * light_stride as usize];
-        let light_buffer = gpu.buffer("light", &light_bytes, Usage::UNIFORM);
-        let uniform = |buffer: &wgpu::Buffer, bytes: usize| {
-            let size = std::num::NonZeroU64::new(bytes as u64);
-            gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-                label: Some("uniform"),
-                layout: &pipelines.uniform,
-                entries: &[wgpu::BindGroupEntry {
-                    binding: 0,
-                    resource: wgpu::BindingResource::Buffer(wgpu::BufferBinding { buffer, offset: 0, size }),
-                }],
-            })
-        };
         let group = |material: usize| Group {
             material,
             masked: matches!(geometry.materials[material].alpha, AlphaMode::Mask { .. }),
@@ -126,8 +107,7 @@ impl Stage {
             attributes: storage("attributes", bytemuck::cast_slice(&attributes), Usage::VERTEX),
             indices: storage("indices", bytemuck::cast_slice(&geometry.indices), Usage::INDEX),
             groups: geometry.groups.iter().map(|(m, r)| (group(*m), 3 * r.start..3 * r.end)).collect(),
-            frame_group: uniform(&frame_buffer, size_of::<Frame>()),
-            light_group: uniform(&light_buffer, size_of::<Mat4>()),
+            frame_group: pipelines.uniform_group(gpu, &frame_buffer, size_of::<Frame>()),
             surfaces: Surfaces::new(gpu, resolution, &frame_buffer),
             materials,
             masks: Masks::new(gpu, geometry),
@@ -135,9 +115,6 @@ impl Stage {
             camera_matrix,
             frame,
             frame_buffer,
-            light_buffer,
-            light_stride,
-            views: Vec::new(),
             capacity: capacity(geometry, light),
             parts: parts::parts(&geometry.indices, most_vertices(&limits)),
         };
@@ -202,70 +179,46 @@ impl Stage {
         &self.surfaces
     }
 
-    /// Most views that casters are drawn for at a time: eight cascades, plain and jittered in sixteen, nine
-    /// and four passes ([`Stratified`](antumbra::Stratified)).
-    pub const MOST_VIEWS: usize = 8 * (1 + 16 + 9 + 4);
-
-    /// Takes the views that [`draw_casters`](Self::draw_casters) will be asked for.
-    ///
-    /// # Errors
-    /// More than [`MOST_VIEWS`](Self::MOST_VIEWS).
-    pub fn set_views(&mut self, gpu: &Gpu, views: &[antumbra::View]) -> Result<()> {
-        if views.len() > Self::MOST_VIEWS {
-            let most = Self::MOST_VIEWS;
-            bail!(
-                "{} views to draw casters for; there is room for {most}: take fewer cascades or techniques",
-                views.len()
-            );
-        }
-        self.views = views.to_vec();
-        for (i, view) in self.views.iter().enumerate() {
-            let matrix = view.clip_from_world.to_cols_array();
-            gpu.queue.write_buffer(
-                &self.light_buffer,
-                i as u64 * self.light_stride,
-                bytemuck::bytes_of(&matrix),
-            );
-        }
-        Ok(())
-    }
-
-    /// Draws every caster into a shadow map's pass, for one of the views of
-    /// [`set_views`](Self::set_views). Opaque ones first, in one draw.
-    pub fn draw_casters(&self, casters: &Casters, view: &View, pass: &mut CasterPass<'_>) {
-        let opaque = self.groups.iter().filter(|g| !g.0.masked).map(|g| g.1.end).max().unwrap_or(0);
-        let Casters::Triangles { mesh, cutout } = casters else { return self.draw_depth(view, pass) };
-        mesh.draw_part(view, pass, 0..opaque / 3);
+    /// Draws every caster into a pass of the shadow map that `casters` were made for. Opaque ones first, in one
+    /// draw.
+    pub fn draw_casters(&self, casters: &Casters, pass: &mut CasterPass<'_>) {
+        let (mesh, cutout) = match casters {
+            Casters::Depth(matrices) => {
+                let index = pass.index();
+                return self.draw_depth(matrices, index, pass);
+            }
+            Casters::Triangles { mesh, cutout } => (mesh, cutout),
+        };
+        pass.draw_mesh(mesh, ..self.opaque_end() / 3);
         let Some((cutout, attributes)) = cutout else { return };
-        pass.set_pipeline(cutout);
         pass.set_bind_group(3, attributes, &[]);
         for (group, range) in self.groups.iter().filter(|g| g.0.masked) {
             pass.set_bind_group(2, &self.materials.groups[group.material], &[]);
-            mesh.draw_part(view, pass, range.start / 3..range.end / 3);
+            pass.draw_cutout(mesh, range.start / 3..range.end / 3, cutout);
         }
     }
 
-    /// Draws their depth, as seen from such a view, by pipelines of the stage's own.
-    pub fn draw_depth(&self, view: &View, pass: &mut RenderPass<'_>) {
-        let opaque = self.groups.iter().filter(|g| !g.0.masked).map(|g| g.1.end).max().unwrap_or(0);
-        let masked = self.groups.iter().filter(|g| g.0.masked);
-        let view = self.views.iter().position(|v| v == view);
-        debug_assert!(view.is_some(), "casters drawn for a view that set_views was not told of");
-        let Some(view) = view else { return };
-        let offset = (view as u64 * self.light_stride) as u32;
+    /// Draws their depth, as seen from one of some views, by pipelines of the stage's own.
+    pub(crate) fn draw_depth(&self, matrices: &ViewMatrices, index: usize, pass: &mut RenderPass<'_>) {
+        let opaque = self.opaque_end();
         pass.set_vertex_buffer(0, self.positions.slice(..));
         pass.set_vertex_buffer(1, self.attributes.slice(..));
         pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
-        pass.set_bind_group(0, &self.light_group, &[offset]);
+        matrices.bind(pass, index);
         if opaque > 0 {
             pass.set_pipeline(&self.pipelines.caster);
             pass.draw_indexed(0..opaque, 0, 0..1);
         }
         pass.set_pipeline(&self.pipelines.masked_caster);
-        for (group, range) in masked {
+        for (group, range) in self.groups.iter().filter(|g| g.0.masked) {
             pass.set_bind_group(1, &self.materials.groups[group.material], &[]);
             pass.draw_indexed(range.clone(), 0, 0..1);
         }
+    }
+
+    /// The index behind those of opaque triangles, which come first.
+    fn opaque_end(&self) -> u32 {
+        self.groups.iter().filter(|g| !g.0.masked).map(|g| g.1.end).max().unwrap_or(0)
     }
 
     /// Draws what the camera sees into [`surfaces`](Self::surfaces).

@@ -177,8 +177,7 @@ fn frame(
     stopwatch.labels.clear();
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     if let Some((shadows, casters)) = entrant.shadows {
-        shadows
-            .encode_probed(&mut encoder, stopwatch, |view, pass| stage.draw_casters(casters, view, pass))?;
+        shadows.encode_probed(&mut encoder, stopwatch, |pass| stage.draw_casters(casters, pass))?;
     }
     stage.encode_surfaces(&mut encoder, stopwatch.pass("surfaces", 0));
     let timestamps = stopwatch.pass("lookup", 0);

@@ -100,5 +100,5 @@ fn enter(gpu: &Gpu, name: &str, capacity: Capacity, specs: &[&str]) -> anyhow::R
     let (mut stage, setting) = staged(gpu, name);
     stage.set_capacity(capacity);
     let techniques = compare::techniques(&specs.iter().map(|s| (*s).into()).collect::<Vec<_>>(), 3).unwrap();
-    setting.enter(gpu, &mut stage, &setting.entries(&techniques)).map(|(entered, _)| entered)
+    setting.enter(gpu, &stage, &setting.entries(&techniques)).map(|(entered, _)| entered)
 }

@@ -312,31 +312,23 @@ impl<'a> Bench<'a> {
             let gpu = &self.gpu;
             self.progress.step(&format!("prepare {} entrants on {}", entrants.len(), shot.scene));
             let setting = self.setting(&shot, 1)?;
-            let mut stage = setting.stage(gpu)?;
+            let stage = setting.stage(gpu)?;
             let lighting = Lighting::new(gpu, &stage);
             let mut groups: BTreeMap<u32, Vec<&str>> = BTreeMap::new();
             for (map, spec) in entrants.iter().filter(|e| e.1 != "none") {
                 groups.entry(*map).or_default().push(spec);
             }
             let mut ready: BTreeMap<u32, std::vec::IntoIter<Contestant>> = BTreeMap::new();
-            let mut views = Vec::new();
             for (map, specs) in groups {
                 let sized = Setting { map_size: map, ..setting.clone() };
                 let entries = sized.entries(&parse(&specs)?);
-                let (entered, _) = sized.enter(gpu, &mut stage, &entries)?;
+                let (entered, _) = sized.enter(gpu, &stage, &entries)?;
                 let (contestants, left_out) = sound(entered);
                 if !left_out.is_empty() {
                     return Err(Refused(left_out).into());
                 }
-                for view in contestants.iter().flat_map(|c| c.shadows.caster_views()) {
-                    if !views.contains(view) {
-                        views.push(*view);
-                    }
-                }
                 ready.insert(map, contestants.into_iter());
             }
-            // One size after the other has set its own.
-            stage.set_views(gpu, &views)?;
             let unshadowed = Lookup::unshadowed(gpu, &stage);
             let runners: Vec<Option<Contestant>> = entrants
                 .iter()
@@ -418,16 +410,16 @@ impl<'a> Bench<'a> {
             let gpu = &self.gpu;
             self.progress.step(&format!("maps of {spec} on {}", shot.scene));
             let setup = self.setting(&shot, map)?.set_up(gpu, &parse(&[spec])?)?;
-            let Setup { mut stage, contestants, views, .. } = setup;
+            let Setup { stage, contestants, views, .. } = setup;
             let contestant = contestants.first().context("no technique")?;
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
             let shadows = &contestant.shadows;
-            shadows.encode(&mut encoder, |view, pass| stage.draw_casters(&contestant.casters, view, pass))?;
+            shadows.encode(&mut encoder, |pass| stage.draw_casters(&contestant.casters, pass))?;
             gpu.finish(encoder)?;
             let mut sheet = Sheet::default();
             for (number, view) in views.iter().enumerate() {
                 let name = maps::cascade_prefix(&views, number) + "depth";
-                sheet.add(&maps::depth(gpu, &mut stage, view, [map; 2], &name)?);
+                sheet.add(&maps::depth(gpu, &stage, view, [map; 2], &name)?);
             }
             maps::pictures(gpu, shadows, 0, &mut |picture| {
                 sheet.add(&picture);

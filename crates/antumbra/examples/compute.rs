@@ -66,7 +66,7 @@ pub fn run(device: &wgpu::Device, queue: &wgpu::Queue) -> Result<Vec<u8>, Box<dy
     let from_sun = common::uniform(device, &matrices, view.clip_from_world);
     let mut encoder = device.create_command_encoder(&Default::default());
     shadows.prepare(queue, &[view])?;
-    shadows.encode(&mut encoder, |_, pass| {
+    shadows.encode(&mut encoder, |pass| {
         pass.set_pipeline(&cast);
         pass.set_bind_group(0, &from_sun, &[]);
         mesh.draw(pass);

@@ -140,9 +140,10 @@ pub fn run(
     let mut encoder = device.create_command_encoder(&Default::default());
     shadows.prepare(queue, &[view])?;
     if technique.caster() == Caster::Depth {
-        shadows.encode(&mut encoder, |view, pass| {
+        shadows.encode(&mut encoder, |pass| {
+            let matrix = common::uniform(device, &matrices, pass.view().clip_from_world);
             pass.set_pipeline(&cast);
-            pass.set_bind_group(0, &common::uniform(device, &matrices, view.clip_from_world), &[]);
+            pass.set_bind_group(0, &matrix, &[]);
             pass.set_bind_group(2, &cut, &[]);
             draw(pass);
         })?;
@@ -150,13 +151,11 @@ pub fn run(
         // Made once. It has groups 0 and 1 to itself: whatever the mask needs is bound from group 2 on.
         let mesh = CasterMesh::new(device, &positions, &indices, 0..triangles, Mat4::IDENTITY)?;
         let with_holes = shadows.cutout_caster(device, &format!("{MASK}{COVERS}"), &[&holes])?;
-        shadows.encode(&mut encoder, |view, pass| {
-            // What has no holes comes first, by the pipeline that is set already.
-            mesh.draw_part(view, pass, 0..2);
-            if let Some(pipeline) = &with_holes {
-                pass.set_pipeline(pipeline);
+        shadows.encode(&mut encoder, |pass| {
+            pass.draw_mesh(&mesh, ..2);
+            if let Some(with_holes) = &with_holes {
                 pass.set_bind_group(2, &cut, &[]);
-                mesh.draw_part(view, pass, 2..triangles);
+                pass.draw_cutout(&mesh, 2.., with_holes);
             }
         })?;
     }

@@ -109,18 +109,18 @@ pub fn run(
         )?;
         shadows.prepare(queue, &views)?;
         if technique.caster() == Caster::Depth {
-            // Those of `prepare`, or several for each (`stratified`): one for each time that it asks.
+            // Of the views of `prepare`, or of several for each (`stratified`).
             let casts = shadows.caster_views().iter();
             let matrices: Vec<_> =
                 casts.map(|v| common::uniform(device, &uniforms, v.clip_from_world)).collect();
-            let mut next = matrices.iter();
-            shadows.encode(&mut encoder, |_, pass| {
+            shadows.encode(&mut encoder, |pass| {
+                let matrix = &matrices[pass.index()];
                 pass.set_pipeline(&cast);
-                pass.set_bind_group(0, next.next(), &[]);
+                pass.set_bind_group(0, matrix, &[]);
                 mesh.draw(pass);
             })?;
         } else {
-            shadows.encode(&mut encoder, |view, pass| triangles.draw(view, pass))?;
+            shadows.encode(&mut encoder, |pass| pass.draw_mesh(&triangles, ..))?;
         }
 
         let source = shadows.wgsl(1).after(SHADER);

@@ -4,7 +4,7 @@
 
 mod common;
 
-use antumbra::{Bounds, Cascades, CasterPass, Esm, Light, Options, ShadowMap, Size, Stage, View, glam, wgpu};
+use antumbra::{Bounds, Cascades, CasterPass, Esm, Light, Options, ShadowMap, Size, Stage, glam, wgpu};
 use common::{HEIGHT, Mesh, WIDTH};
 use glam::{Mat4, Vec3, camera::rh};
 
@@ -29,13 +29,13 @@ fn cast(
     queue: &wgpu::Queue,
     encoder: &mut wgpu::CommandEncoder,
     (camera, scene): (Mat4, Bounds),
-    draw_depth: impl FnMut(&View, &mut CasterPass<'_>),
+    draw_depth: impl FnMut(&mut CasterPass<'_>),
 ) -> Result<(), Box<dyn std::error::Error>> {
     let sun = Light::Directional { direction: Vec3::new(0.7, -1.0, -0.25) };
     let (size, margin_texels) = (shadows.size(), shadows.margin_texels());
     let views = sun.views(&Stage { camera, scene, size, margin_texels }, Cascades::new(4))?;
     shadows.prepare(queue, &views)?;
-    shadows.encode(encoder, draw_depth)?; // your own depth pipeline, with view.clip_from_world
+    shadows.encode(encoder, draw_depth)?; // your own depth pipeline, with pass.view().clip_from_world
     Ok(())
 }
 // README
@@ -79,9 +79,10 @@ pub fn run(device: &wgpu::Device, queue: &wgpu::Queue) -> Result<Vec<u8>, Box<dy
     let from_camera = common::uniform(device, &matrices, camera());
 
     let mut encoder = device.create_command_encoder(&Default::default());
-    cast(&mut shadows, queue, &mut encoder, (camera(), scene), |view, pass| {
+    cast(&mut shadows, queue, &mut encoder, (camera(), scene), |pass| {
+        let matrix = common::uniform(device, &matrices, pass.view().clip_from_world);
         pass.set_pipeline(&depth);
-        pass.set_bind_group(0, &common::uniform(device, &matrices, view.clip_from_world), &[]);
+        pass.set_bind_group(0, &matrix, &[]);
         mesh.draw(pass);
     })?;
     Ok(common::render(device, queue, encoder, |pass| {

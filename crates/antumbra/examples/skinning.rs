@@ -135,15 +135,16 @@ pub fn run(
     }
     shadows.prepare(queue, &[view])?;
     if technique.caster() == Caster::Depth {
-        shadows.encode(&mut encoder, |view, pass| {
+        shadows.encode(&mut encoder, |pass| {
+            let matrix = common::uniform(device, &matrices, pass.view().clip_from_world);
             pass.set_pipeline(&cast);
-            pass.set_bind_group(0, &common::uniform(device, &matrices, view.clip_from_world), &[]);
+            pass.set_bind_group(0, &matrix, &[]);
             draw(pass);
         })?;
     } else {
         // Made once: it reads the buffer anew each time.
         let mesh = CasterMesh::new(device, &positions, &indices, 0..triangles, Mat4::IDENTITY)?;
-        shadows.encode(&mut encoder, |view, pass| mesh.draw(view, pass))?;
+        shadows.encode(&mut encoder, |pass| pass.draw_mesh(&mesh, ..))?;
     }
 
     let from_camera = common::uniform(device, &matrices, camera());

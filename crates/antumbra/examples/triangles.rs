@@ -74,14 +74,12 @@ pub fn run(
     let view =
         sun.view(&Fit { casters: scene, receivers: scene.corners().collect(), size, margin_texels })?;
 
-    // 3. Each frame: what moved, then all meshes. The pass that comes has the pipeline for them.
+    // 3. Each frame: what moved, then all meshes. The pass knows how to draw them.
     let moved = Mat4::from_translation(Vec3::new(-2.5, 0.5, 1.0)) * Mat4::from_rotation_y(0.6);
     casters[1].place(queue, moved);
     let mut encoder = device.create_command_encoder(&Default::default());
     shadows.prepare(queue, &[view])?;
-    shadows.encode(&mut encoder, |view, pass| {
-        casters.iter().for_each(|mesh| mesh.draw(view, pass));
-    })?;
+    shadows.encode(&mut encoder, |pass| casters.iter().for_each(|mesh| pass.draw_mesh(mesh, ..)))?;
     // What there is no memory for casts no shadow; 0 where triangles are not kept by number.
     if shadows.triangles_drawn() > capacity.triangles {
         return Err(format!("{} triangles were drawn", shadows.triangles_drawn()).into());

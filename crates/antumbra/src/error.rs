@@ -156,7 +156,7 @@ pub enum CasterError {
     /// The closure of [`ShadowMap::encode`](crate::ShadowMap::encode) used its pass, but drew no
     /// [`CasterMesh`](crate::CasterMesh).
     #[error(
-        "{technique} keeps triangles, and the closure of encode drew no CasterMesh: what other pipelines draw there leaves no shadow; call CasterMesh::draw, or take a technique that keeps depth"
+        "{technique} keeps triangles, and the closure of encode drew no CasterMesh: what other pipelines draw there leaves no shadow; call CasterPass::draw_mesh, or take a technique that keeps depth"
     )]
     OwnPipelines {
         /// Name of the technique.

@@ -34,8 +34,8 @@
 //!     })?;
 //!     let mut encoder = device.create_command_encoder(&Default::default());
 //!     shadows.prepare(queue, &[view])?;
-//!     shadows.encode(&mut encoder, |view, pass| {
-//!         // … draw your casters' depth with `view.clip_from_world`.
+//!     shadows.encode(&mut encoder, |pass| {
+//!         // … draw your casters' depth with `pass.view().clip_from_world`.
 //!     })?;
 //!     // … in your pass: pass.set_bind_group(2, shadows.bind_group(), &[]);
 //!     Ok(())
@@ -59,9 +59,9 @@
 //!
 //! - What casters draw depends on what a technique keeps ([`Technique::caster`]). Most keep depth, which your
 //!   own pipelines draw once per view; `stratified` asks for it n² times per view, each time from a view
-//!   that is shifted by a fraction of a texel, so place casters by the view that the closure gets. `rgsm`,
-//!   `spsm`, `dpm` and `exact` keep triangles, which [`CasterMesh`] draws by pipelines of the library. The
-//!   other kind is a [`CasterError`].
+//!   that is shifted by a fraction of a texel, so place casters by [`CasterPass::view`]. `rgsm`, `spsm`,
+//!   `dpm` and `exact` keep triangles: [`CasterPass::draw_mesh`] draws a [`CasterMesh`] by pipelines of the
+//!   library. The other kind is a [`CasterError`].
 //! - Casters in front of a view's near plane must still cast: set `unclipped_depth` in your caster
 //!   pipelines where the device [can](Capabilities::clamps_depth), elsewhere call `caster_pancaked` of
 //!   [`CASTER_WGSL`] in their vertex shader.
@@ -107,7 +107,7 @@
 //! flows back:
 //!
 //! 1. **cast**: you draw the casters' depth, or already have it ([`ShadowMap::from_depth`]), or let
-//!    [`CasterMesh`] draw triangles;
+//!    [`CasterPass::draw_mesh`] draw triangles;
 //! 2. **convert**: each texel of depth becomes what the technique keeps, such as moments;
 //! 3. **pre-filter**: blur and mip chain ([`Filter`]);
 //! 4. **look up**: `shadow_visibility` reads the map and bounds the share of light.
@@ -185,8 +185,8 @@ pub use filter::{Filter, Sampling, Values};
 pub use kernel::{Kernel, Weights};
 pub use light::{Bounds, Fit, Light, Size, View};
 pub use map::{
-    Capacity, CasterMesh, CasterPass, DEPTH_FORMAT, Lifetime, Memory, MemoryItem, MeshPart, NoProbe, Options,
-    Pipelines, Probe, ShadowMap, TooManyViews,
+    Capacity, CasterMesh, CasterPass, CutoutCaster, DEPTH_FORMAT, Lifetime, Memory, MemoryItem, MeshPart,
+    NoProbe, Options, Pipelines, Probe, ShadowMap, TooManyViews,
 };
 pub use parameter::{Choice, Field, Parameter};
 pub use precision::Precision;

@@ -2,10 +2,9 @@
 
 use crate::{
     capabilities::Capabilities,
-    error::Unsupported,
     light::{Size, View},
-    shader::{self, Cutout, ShaderText},
-    technique::{Caster, Technique},
+    shader::{self, ShaderText},
+    technique::Technique,
 };
 use glam::Vec2;
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -17,6 +16,7 @@ mod capacity;
 mod cast;
 mod caster;
 mod check;
+mod cutout;
 mod draw;
 mod encode;
 mod explain;
@@ -36,6 +36,7 @@ pub use capacity::Capacity;
 pub(crate) use capacity::splits;
 pub use cast::CasterPass;
 use caster::TriangleCaster;
+pub use cutout::CutoutCaster;
 use draw::Draw;
 use lists::Lists;
 pub use memory::{Lifetime, Memory, MemoryItem};
@@ -112,60 +113,7 @@ impl ShadowMap {
         Ok(())
     }
 
-    /// For casters with holes, where the technique's caster is not [`Caster::Depth`]: the pipeline to
-    /// set in the closure of [`encode`](Self::encode) before such meshes are drawn, with the caller's
-    /// own bindings, described by `layouts`, from group 2 on.
-    ///
-    /// `wgsl` declares them and defines `caster_covers(triangle: u32, weights: vec3f) -> bool`: whether
-    /// a triangle of the mesh, counted from the first index, stops light where its corners have these
-    /// weights, 0 to 1, sum 1. It may call `caster_vertex(triangle, corner) -> u32`, the index of a
-    /// corner, and samples with explicit levels. It is asked once per texel, at the triangle's point
-    /// next to the texel's centre: holes have the map's resolution, edges of their triangles
-    /// sub-texel precision, and a texel with holes says nothing about its neighbours.
-    ///
-    /// Where lookups ask ([`asks_about_cutouts`](Self::asks_about_cutouts)) every texel keeps all triangles that
-    /// touch it, holes or not, and receivers see through the holes themselves, at any size of the map. Then
-    /// `wgsl` also defines `caster_tag(triangle: u32) -> u32`, any number that `shadow_covers` will need to know the
-    /// triangle by, such as its material's, and `caster_covers` tells of the centres of texels alone.
-    ///
-    /// `None` if casters are depth.
-    ///
-    /// # Errors
-    /// [`Unsupported::Cutout`]: more bind groups than the device has, or what it says of the shader and the
-    /// number of resources. In a browser, where devices answer later, the second goes to the caller's error
-    /// scope or handler.
-    pub fn cutout_caster(
-        &self,
-        device: &wgpu::Device,
-        wgsl: &str,
-        layouts: &[&wgpu::BindGroupLayout],
-    ) -> Result<Option<wgpu::RenderPipeline>, Unsupported> {
-        let technique = self.technique.as_ref();
-        if technique.caster() == Caster::Depth {
-            return Ok(None);
-        }
-        check::cutout(device, technique, layouts.len())?;
-        let (pipeline, refusal) = answer::ask_now(device, || {
-            let triangles = self.triangles.as_ref().map(|t| t.cutout(device, technique, wgsl, layouts));
-            let cutout = Cutout { wgsl, by_ray: self.asks };
-            triangles.or_else(|| self.numbered().map(|n| n.cutout(device, technique, cutout, layouts)))
-        });
-        refusal.map_or(Ok(pipeline), |refusal| {
-            let technique = technique.page().name.into();
-            Err(Unsupported::Cutout { technique, reason: refusal.to_string() })
-        })
-    }
-
-    /// A pipeline to return to after that one, in the closure of [`encode`](Self::encode). Slower than the
-    /// one that is set when the closure is called: better draw meshes without holes first. `None` if
-    /// casters are depth.
-    #[must_use]
-    pub fn triangle_caster(&self, view: &View) -> Option<&wgpu::RenderPipeline> {
-        let numbered = self.numbered().map(|n| n.pipeline(view));
-        self.triangles.as_ref().map(TriangleCaster::general).or(numbered)
-    }
-
-    /// Two `u32` per view, usage `COPY_SRC`, for techniques whose caster is [`Caster::Lists`]: entries
+    /// Two `u32` per view, usage `COPY_SRC`, for techniques whose caster is [`Caster::Lists`](crate::technique::Caster::Lists): entries
     /// that the casters of the last [`encode`](Self::encode) needed, of the `width · height` times
     /// [`Capacity::triangles_per_texel`] that there is memory for; length of the longest list.
     #[must_use]
@@ -174,7 +122,7 @@ impl ShadowMap {
     }
 
     /// Numbers that the last [`encode`](Self::encode) gave to triangles in the view with most, for
-    /// techniques whose caster is [`Caster::Lists`] or [`Caster::Ranked`]: one for each triangle that was
+    /// techniques whose caster is [`Caster::Lists`](crate::technique::Caster::Lists) or [`Caster::Ranked`](crate::technique::Caster::Ranked): one for each triangle that was
     /// drawn, two under a spot, which may cut it in two, and those of triangles before the first that was
     /// drawn. What is beyond [`Capacity::triangles`] casts no shadow. Else 0.
     #[must_use]

@@ -255,7 +255,7 @@ fn too_many_views(gpu: &Gpu) {
         shadows.prepare(&gpu.queue, &vec![view; count]).unwrap();
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         let mut drawn = 0;
-        shadows.encode(&mut encoder, |_, _| drawn += 1).unwrap();
+        shadows.encode(&mut encoder, |_| drawn += 1).unwrap();
         gpu.queue.submit([encoder.finish()]);
         assert_eq!(drawn, count);
     }
@@ -271,7 +271,7 @@ fn least_devices(_: &Gpu) {
             let mut shadows = ShadowMap::new(&gpu.device, technique.as_ref(), options).unwrap();
             shadows.prepare(&gpu.queue, &[common::view(SIZE); 2]).unwrap();
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
-            shadows.encode(&mut encoder, |_, _| ()).unwrap();
+            shadows.encode(&mut encoder, |_| ()).unwrap();
             gpu.queue.submit([encoder.finish()]);
             let explained = shadows.explain().join("\n");
             says(&explained, &["no depth clamping", "caster_pancaked"]);

@@ -106,7 +106,7 @@ fn behind(gpu: &Gpu, spec: &str, options: Options, casters: &[Vec3], receivers: 
     let mut shadows = ShadowMap::new(&gpu.device, technique.as_ref(), options).unwrap();
     shadows.prepare(&gpu.queue, &[view]).unwrap();
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    shadows.encode(&mut encoder, |view, pass| mesh.draw(view, pass)).unwrap();
+    shadows.encode(&mut encoder, |pass| pass.draw_mesh(&mesh, ..)).unwrap();
     gpu.queue.submit([encoder.finish()]);
     visibility(gpu, &shadows, receivers)
 }

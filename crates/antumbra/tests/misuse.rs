@@ -5,8 +5,7 @@
 mod common;
 
 use antumbra::{
-    CasterPass, DEPTH_FORMAT, Options, ShadowMap, Size, Technique, Unsupported, View, technique,
-    technique::Caster,
+    CasterPass, DEPTH_FORMAT, Options, ShadowMap, Size, Technique, Unsupported, technique, technique::Caster,
 };
 use antumbra_testing::{Gpu, Trials, broken::Broken};
 use glam::Vec3;
@@ -63,15 +62,15 @@ fn casters(gpu: &Gpu) {
         let mut shadows = ShadowMap::new(&gpu.device, technique.as_ref(), SIZE).unwrap();
         shadows.prepare(&gpu.queue, &[common::view(SIZE)]).unwrap();
         // Encoders that are never finished: wgpu itself refuses some of these pipelines then.
-        let encoded = |draw: &dyn Fn(&View, &mut CasterPass<'_>)| {
+        let encoded = |draw: &dyn Fn(&mut CasterPass<'_>)| {
             shadows.encode(&mut gpu.device.create_command_encoder(&Default::default()), draw)
         };
-        encoded(&|_, _| ()).unwrap();
-        let with_own = encoded(&|_, pass| {
+        encoded(&|_| ()).unwrap();
+        let with_own = encoded(&|pass| {
             pass.set_pipeline(&own);
             pass.draw(0..3, 0..1);
         });
-        let with_mesh = encoded(&|view, pass| mesh.draw(view, pass));
+        let with_mesh = encoded(&|pass| pass.draw_mesh(&mesh, ..));
         let (keeps, [good, bad]) = match technique.caster() {
             Caster::Depth => ("keeps depth", [with_own, with_mesh]),
             _ => ("keeps triangles", [with_mesh, with_own]),

@@ -28,11 +28,11 @@ pub(crate) fn run(arguments: &Maps) -> Result<()> {
     }
     let setting = scene::load(&arguments.scene)?;
     let gpu = Gpu::new()?;
-    let Setup { mut stage, contestants, views, .. } = setting.set_up(&gpu, &techniques)?;
+    let Setup { stage, contestants, views, .. } = setting.set_up(&gpu, &techniques)?;
     let Some(contestant) = contestants.first() else { bail!("no technique was named") };
     let shadows = &contestant.shadows;
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    shadows.encode(&mut encoder, |view, pass| stage.draw_casters(&contestant.casters, view, pass))?;
+    shadows.encode(&mut encoder, |pass| stage.draw_casters(&contestant.casters, pass))?;
     gpu.finish(encoder)?;
     let mut written = Vec::new();
     let folder = files::write_folder(&arguments.output, |folder| -> Result<()> {
@@ -46,7 +46,7 @@ pub(crate) fn run(arguments: &Maps) -> Result<()> {
         };
         for (number, view) in views.iter().enumerate() {
             let name = maps::cascade_prefix(&views, number) + "depth";
-            take(maps::depth(&gpu, &mut stage, view, [setting.map_size; 2], &name)?)?;
+            take(maps::depth(&gpu, &stage, view, [setting.map_size; 2], &name)?)?;
         }
         maps::pictures(&gpu, shadows, arguments.level, &mut take)?;
         folder.write(SHEET, &sheet.image().to_png()?)?;

@@ -56,6 +56,16 @@ impl Contestant {
         Ok(Self { shadows, lookup, casters, classes, entry, occupancy: None, options: options.clone() })
     }
 
+    /// Gives it the light's views.
+    ///
+    /// # Errors
+    /// More than its map has room for.
+    pub fn aim(&mut self, gpu: &Gpu, stage: &Stage, views: &[View]) -> Result<()> {
+        self.shadows.prepare(&gpu.queue, views)?;
+        self.casters.aim(gpu, stage, &self.shadows);
+        Ok(())
+    }
+
     /// Draws its maps for the views that it was last given. A map with too little memory for the triangles
     /// that share texels is allocated anew and drawn again; where the device refuses that, shadows are missing,
     /// which [`invalid`](Self::invalid) tells.
@@ -73,7 +83,7 @@ impl Contestant {
             let Ok(mut larger) = Self::new(gpu, stage, self.shadows.technique(), &options, self.entry) else {
                 break;
             };
-            larger.shadows.prepare(&gpu.queue, self.shadows.views())?;
+            larger.aim(gpu, stage, self.shadows.views())?;
             larger.cast(gpu, stage)?;
             *self = larger;
         }
@@ -82,7 +92,7 @@ impl Contestant {
 
     fn cast(&mut self, gpu: &Gpu, stage: &Stage) -> Result<()> {
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        self.shadows.encode(&mut encoder, |view, pass| stage.draw_casters(&self.casters, view, pass))?;
+        self.shadows.encode(&mut encoder, |pass| stage.draw_casters(&self.casters, pass))?;
         gpu.finish(encoder)?;
         self.occupancy = Occupancy::read(gpu, &self.shadows)?;
         Ok(())
@@ -104,7 +114,7 @@ impl Contestant {
         stage: &Stage,
         lighting: &Lighting,
     ) -> Result<()> {
-        self.shadows.encode(encoder, |view, pass| stage.draw_casters(&self.casters, view, pass))?;
+        self.shadows.encode(encoder, |pass| stage.draw_casters(&self.casters, pass))?;
         lighting.encode_lookup(encoder, stage, &self.lookup, Some(&self.shadows), None);
         Ok(())
     }
@@ -158,19 +168,10 @@ pub fn contestants(
     Ok(Entered { contestants, left_out })
 }
 
-/// Gives all contestants the light's views, and the stage the views that they draw casters for.
+/// Gives all contestants the light's views.
 ///
 /// # Errors
-/// More views than the maps have room for, or than the stage has ([`Stage::MOST_VIEWS`]).
-pub fn aim(gpu: &Gpu, stage: &mut Stage, contestants: &mut [Contestant], views: &[View]) -> Result<()> {
-    let mut caster_views = Vec::new();
-    for contestant in contestants {
-        contestant.shadows.prepare(&gpu.queue, views)?;
-        for view in contestant.shadows.caster_views() {
-            if !caster_views.contains(view) {
-                caster_views.push(*view);
-            }
-        }
-    }
-    stage.set_views(gpu, &caster_views)
+/// More views than the maps have room for.
+pub fn aim(gpu: &Gpu, stage: &Stage, contestants: &mut [Contestant], views: &[View]) -> Result<()> {
+    contestants.iter_mut().try_for_each(|contestant| contestant.aim(gpu, stage, views))
 }

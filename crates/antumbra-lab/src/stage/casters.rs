@@ -2,33 +2,33 @@
 
 use super::{Stage, loaded_buffer};
 use crate::{gpu::Gpu, shaders};
-use antumbra::{CasterMesh, ShadowMap, technique::Caster};
+use antumbra::{CasterMesh, CutoutCaster, ShadowMap, View, technique::Caster};
 use anyhow::Result;
 use glam::Mat4;
 
 /// What drawing casters for one shadow map takes.
 #[derive(Debug)]
 pub enum Casters {
-    /// The stage's own pipelines.
-    Depth,
+    /// The stage's own pipelines, and what they know of the map's caster views.
+    Depth(ViewMatrices),
     /// The library's.
     Triangles {
         /// All triangles of the stage.
         mesh: CasterMesh,
-        /// For masked materials: the pipeline, and normals, texture coordinates and colours of the
+        /// For masked materials: how they are drawn, and normals, texture coordinates and colours of the
         /// vertices. `None` if the scene has none.
-        cutout: Option<(wgpu::RenderPipeline, wgpu::BindGroup)>,
+        cutout: Option<(CutoutCaster, wgpu::BindGroup)>,
     },
 }
 
 impl Casters {
-    /// For one shadow map.
+    /// For one shadow map and its views, if it has any yet.
     ///
     /// # Errors
     /// More geometry than one binding may hold.
     pub fn new(gpu: &Gpu, stage: &Stage, shadows: &ShadowMap) -> Result<Self> {
         if shadows.technique().caster() == Caster::Depth {
-            return Ok(Self::Depth);
+            return Ok(Self::Depth(ViewMatrices::new(gpu, stage, shadows.caster_views())));
         }
         let (positions, indices) = (&stage.positions, &stage.indices);
         let mesh = CasterMesh::in_parts(&gpu.device, positions, indices, &stage.parts, Mat4::IDENTITY)?;
@@ -45,8 +45,42 @@ impl Casters {
             layout: &layout,
             entries: &[wgpu::BindGroupEntry { binding: 0, resource: stage.attributes.as_entire_binding() }],
         });
-        let pipeline =
+        let cutout =
             shadows.cutout_caster(&gpu.device, shaders::CUTOUT, &[&stage.materials.layout, &layout])?;
-        Ok(Self::Triangles { mesh, cutout: pipeline.map(|pipeline| (pipeline, attributes)) })
+        Ok(Self::Triangles { mesh, cutout: cutout.map(|cutout| (cutout, attributes)) })
+    }
+
+    /// Takes the views that the map was given anew.
+    pub fn aim(&mut self, gpu: &Gpu, stage: &Stage, shadows: &ShadowMap) {
+        if let Self::Depth(matrices) = self {
+            *matrices = ViewMatrices::new(gpu, stage, shadows.caster_views());
+        }
+    }
+}
+
+/// Matrices of some views, for the stage's pipelines that draw depth.
+#[derive(Debug)]
+pub struct ViewMatrices {
+    group: wgpu::BindGroup,
+    /// Bytes from one matrix to the next.
+    stride: u32,
+}
+
+impl ViewMatrices {
+    /// Those that place a stage on such views.
+    pub(crate) fn new(gpu: &Gpu, stage: &Stage, views: &[View]) -> Self {
+        const BYTES: usize = size_of::<Mat4>();
+        let stride = BYTES.next_multiple_of(gpu.device.limits().min_uniform_buffer_offset_alignment as usize);
+        let mut bytes = vec![0; views.len().max(1) * stride];
+        for (slot, view) in bytes.chunks_exact_mut(stride).zip(views) {
+            slot[..BYTES].copy_from_slice(bytemuck::bytes_of(&view.clip_from_world.to_cols_array()));
+        }
+        let buffer = gpu.buffer("views", &bytes, wgpu::BufferUsages::UNIFORM);
+        Self { group: stage.pipelines.uniform_group(gpu, &buffer, BYTES), stride: stride as u32 }
+    }
+
+    /// Binds that of view `index` for the pipelines.
+    pub(super) fn bind(&self, pass: &mut wgpu::RenderPass<'_>, index: usize) {
+        pass.set_bind_group(0, &self.group, &[index as u32 * self.stride]);
     }
 }

@@ -123,6 +123,19 @@ impl Pipelines {
             uniform,
         }
     }
+
+    /// What pipelines bind as group 0: `bytes` of a buffer, from an offset that is set with the group.
+    pub(super) fn uniform_group(&self, gpu: &Gpu, buffer: &wgpu::Buffer, bytes: usize) -> wgpu::BindGroup {
+        let size = std::num::NonZeroU64::new(bytes as u64);
+        gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("uniform"),
+            layout: &self.uniform,
+            entries: &[wgpu::BindGroupEntry {
+                binding: 0,
+                resource: wgpu::BindingResource::Buffer(wgpu::BufferBinding { buffer, offset: 0, size }),
+            }],
+        })
+    }
 }
 
 fn wgsl(gpu: &Gpu, label: &str, parts: &[&str]) -> wgpu::ShaderModule {

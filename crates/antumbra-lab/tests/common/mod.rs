@@ -91,11 +91,10 @@ impl Shot {
 
     /// What one of them answers for every pixel.
     pub(crate) fn visibility(&mut self, shadows: &ShadowMap) -> Plane {
-        self.stage.set_views(&self.gpu, shadows.caster_views()).unwrap();
         let lookup = Lookup::new(&self.gpu, &self.stage, shadows);
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         let casters = Casters::new(&self.gpu, &self.stage, shadows).unwrap();
-        shadows.encode(&mut encoder, |view, pass| self.stage.draw_casters(&casters, view, pass)).unwrap();
+        shadows.encode(&mut encoder, |pass| self.stage.draw_casters(&casters, pass)).unwrap();
         self.stage.encode_surfaces(&mut encoder, None);
         self.lighting.encode_lookup(&mut encoder, &self.stage, &lookup, Some(shadows), None);
         self.gpu.finish(encoder).unwrap();

@@ -88,7 +88,7 @@ fn draw(
 
     let mut encoder = device.create_command_encoder(&Default::default());
     shadows.prepare(queue, &[view])?;
-    shadows.encode(&mut encoder, |_, pass| {
+    shadows.encode(&mut encoder, |pass| {
         pass.set_pipeline(&cast);
         pass.set_bind_group(0, &from_sun, &[]);
         mesh.draw(pass);

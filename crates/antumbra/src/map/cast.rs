@@ -1,31 +1,125 @@
-//! The pass that casters are drawn in, which notices what leaves nothing there.
+//! The pass that casters are drawn in: it knows what it draws, and notices what leaves nothing there.
 
+use super::{CasterMesh, CutoutCaster, caster::perspective};
 use crate::{
     error::CasterError,
+    light::View,
     technique::{Caster, Technique},
 };
-use std::ops::{Deref, DerefMut};
-use wgpu::RenderPass;
+use std::ops::{Deref, DerefMut, Range, RangeBounds};
+use wgpu::{BindGroup, RenderPass, RenderPipeline};
 
 /// What the closure of [`ShadowMap::encode`](crate::ShadowMap::encode) draws casters in: wgpu's render
-/// pass, which it dereferences to. Where the technique keeps depth, the caller's own pipelines draw in it;
-/// where it keeps triangles, [`CasterMesh::draw`](crate::CasterMesh::draw) does.
+/// pass, which it dereferences to. Where the technique keeps depth, the caller's own pipelines draw in it, and
+/// place casters by [`view`](Self::view); where it keeps triangles, [`draw_mesh`](Self::draw_mesh) does.
 #[derive(Debug)]
 pub struct CasterPass<'a> {
     pass: RenderPass<'a>,
-    takes_meshes: bool,
+    view: &'a View,
+    index: usize,
+    meshes: Option<MeshPipeline<'a>>,
+    /// The library's pipeline that is set, unless the caller may have set something since.
+    set: Option<RenderPipeline>,
+    /// The first id that no triangle of the pass has.
+    next_id: u32,
     drawn: Drawn,
 }
 
+/// What meshes without holes are drawn with.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct MeshPipeline<'a> {
+    pub(super) pipeline: &'a RenderPipeline,
+    /// Group 0 of that pipeline, and of those for cut-outs.
+    pub(super) group: &'a BindGroup,
+    /// Whether triangles share vertices, by the mesh's indices.
+    pub(super) indexed: bool,
+}
+
 impl<'a> CasterPass<'a> {
-    pub(super) fn new(pass: RenderPass<'a>, takes_meshes: bool) -> Self {
-        Self { pass, takes_meshes, drawn: Drawn::default() }
+    /// The pass for `view`, which is number `index` of the map's caster views; without `meshes` the technique
+    /// keeps depth.
+    pub(super) fn new(
+        pass: RenderPass<'a>,
+        (index, view): (usize, &'a View),
+        meshes: Option<MeshPipeline<'a>>,
+    ) -> Self {
+        Self { pass, view, index, meshes, set: None, next_id: 0, drawn: Drawn::default() }
     }
 
-    /// wgpu's pass, for a mesh to be drawn in; none where that would not be valid.
-    pub(super) fn for_mesh(&mut self) -> Option<&mut RenderPass<'a>> {
+    /// The view whose [`clip_from_world`](View::clip_from_world) places the casters.
+    #[must_use]
+    pub fn view(&self) -> &'a View {
+        self.view
+    }
+
+    /// Which of [`ShadowMap::caster_views`](crate::ShadowMap::caster_views) that is. Renderers that keep
+    /// uniforms for each view find them by it; several passes may be of one view.
+    #[must_use]
+    pub fn index(&self) -> usize {
+        self.index
+    }
+
+    /// Draws the triangles of a mesh, or a range of them, counted from the first index (`..`, `0..12`). What lies
+    /// outside those that the mesh was [made](CasterMesh::new) of is left out. Three vertices per triangle, six
+    /// under a spot, whose triangles may have to be cut.
+    ///
+    /// Sets whatever it needs, so that it may follow cut-outs and the caller's own commands. Where the technique
+    /// keeps depth nothing is drawn, and `encode` says so.
+    pub fn draw_mesh(&mut self, mesh: &CasterMesh, triangles: impl RangeBounds<u32>) {
+        let Some(MeshPipeline { pipeline, indexed, .. }) = self.meshes else {
+            self.drawn.meshes = true;
+            return;
+        };
+        self.draw_with(pipeline, indexed, mesh, triangles);
+    }
+
+    /// Draws triangles with holes likewise. The caller's own bindings, from group 2 on, are set by wgpu's
+    /// `set_bind_group`.
+    ///
+    /// `cutout` comes from this map, or from one of the same technique, settings and options; wgpu refuses the
+    /// commands of others.
+    pub fn draw_cutout(
+        &mut self,
+        mesh: &CasterMesh,
+        triangles: impl RangeBounds<u32>,
+        cutout: &CutoutCaster,
+    ) {
+        self.draw_with(&cutout.pipeline, false, mesh, triangles);
+    }
+
+    fn draw_with(
+        &mut self,
+        pipeline: &RenderPipeline,
+        indexed: bool,
+        mesh: &CasterMesh,
+        triangles: impl RangeBounds<u32>,
+    ) {
         self.drawn.meshes = true;
-        self.takes_meshes.then_some(&mut self.pass)
+        let triangles = mesh.within(triangles);
+        let Some(meshes) = self.meshes.filter(|_| !triangles.is_empty()) else { return };
+        if self.set.as_ref() != Some(pipeline) {
+            self.pass.set_pipeline(pipeline);
+            self.pass.set_bind_group(0, meshes.group, &[]);
+            self.set = Some(pipeline.clone());
+        }
+        if indexed {
+            return mesh.draw_indexed(&mut self.pass, triangles);
+        }
+        let halves = 1 + perspective(self.view);
+        let first = self.number(halves * triangles.start..halves * triangles.end);
+        mesh.draw(&mut self.pass, triangles, 3 * halves, first);
+    }
+
+    /// What is added to those indices of triangles, so that none before has the same id.
+    fn number(&mut self, indices: Range<u32>) -> u32 {
+        let first = self.next_id.max(indices.start) - indices.start;
+        self.next_id = first.saturating_add(indices.end);
+        first.min(u32::MAX - 1)
+    }
+
+    /// Ids that its triangles took, from 0 on.
+    pub(super) fn ids(&self) -> u32 {
+        self.next_id
     }
 }
 
@@ -40,6 +134,7 @@ impl<'a> Deref for CasterPass<'a> {
 impl DerefMut for CasterPass<'_> {
     fn deref_mut(&mut self) -> &mut Self::Target {
         self.drawn.otherwise = true;
+        self.set = None;
         &mut self.pass
     }
 }

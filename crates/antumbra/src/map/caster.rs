@@ -1,18 +1,13 @@
 //! The pass that draws triangles instead of depth.
 
-use super::{DEPTH_FORMAT, memory::MemoryItem, pipelines::Pipelines};
+use super::{DEPTH_FORMAT, cast::MeshPipeline, memory::MemoryItem, pipelines::Pipelines};
 use crate::{
     capabilities::Capabilities,
     light::{Size, View},
     shader::{self, Cutout, TrianglePass, split::Splits},
     technique::{Coverage, Technique},
 };
-use std::{
-    cell::Cell,
-    num::NonZeroU64,
-    ops::Range,
-    sync::atomic::{AtomicBool, Ordering},
-};
+use std::num::NonZeroU64;
 use wgpu::{BindGroup, BindGroupLayout, BufferBindingType, RenderPipeline, TextureFormat};
 
 /// Share of a spot's near distance in front of which casters are cut off.
@@ -53,42 +48,6 @@ impl CasterView {
     }
 }
 
-thread_local! {
-    /// The first number that no triangle of the pass has which this thread records. Lists tell
-    /// triangles of all meshes apart by numbers, and draws know neither one another nor their map.
-    static NEXT_NUMBER: Cell<u32> = const { Cell::new(0) };
-    /// Whether the pass that this thread records has a pipeline whose vertices are shared.
-    static DRAWS_INDEXED: Cell<bool> = const { Cell::new(false) };
-}
-
-/// Tells draws that follow what the pipeline wants.
-pub(super) fn draw_indexed(indexed: bool) {
-    DRAWS_INDEXED.set(indexed);
-}
-
-/// Begins to number triangles from 0.
-pub(super) fn number_anew() {
-    draw_indexed(false);
-    NEXT_NUMBER.set(0);
-}
-
-/// Numbers given since.
-pub(super) fn numbered() -> u32 {
-    NEXT_NUMBER.get()
-}
-
-/// Whether the pass that this thread records wants shared vertices.
-pub(super) fn draws_indexed() -> bool {
-    DRAWS_INDEXED.get()
-}
-
-/// What is added to those indices, so that no triangle before has the same number.
-pub(super) fn number(indices: Range<u32>) -> u32 {
-    let first = NEXT_NUMBER.get().max(indices.start) - indices.start;
-    NEXT_NUMBER.set(first.saturating_add(indices.end));
-    first.min(u32::MAX - 1)
-}
-
 /// 1 for a spot's view, else 0.
 pub(super) fn perspective(view: &View) -> u32 {
     u32::from(view.near_over_far < 1.0)
@@ -118,10 +77,6 @@ pub(super) struct TriangleCaster {
     pipelines: Vec<[RenderPipeline; 2]>,
     /// Per pass under the sun, where the device can.
     indexed: Vec<Option<RenderPipeline>>,
-    /// Whether pipelines for cut-outs were asked for, which do not share vertices: then none does.
-    pulls: AtomicBool,
-    /// For any pass and view.
-    general: RenderPipeline,
     coverages: &'static [Coverage],
     format: TextureFormat,
     size: Size,
@@ -187,8 +142,6 @@ impl TriangleCaster {
             groups: (0..slots).map(group).collect(),
             pipelines: coverages.iter().map(kinds).collect(),
             indexed: coverages.iter().map(indexed).collect(),
-            pulls: AtomicBool::new(false),
-            general: compiled(TrianglePass::Any),
             coverages,
             format,
             size,
@@ -197,7 +150,7 @@ impl TriangleCaster {
         }
     }
 
-    /// The pipeline that leaves out what the caller's WGSL says. From now on all pipelines pull vertices.
+    /// The pipeline, for any pass and view, that leaves out what the caller's WGSL says.
     pub(super) fn cutout(
         &self,
         device: &wgpu::Device,
@@ -209,32 +162,23 @@ impl TriangleCaster {
         let shader =
             shader::triangles(technique, &device_can, Some(Cutout { wgsl, by_ray: false }), pass, &splits);
         let own = layout(device, "shadow caster view", &[BufferBindingType::Uniform]);
-        self.pulls.store(true, Ordering::Relaxed);
         compile(device, &shader, self.format, false, &own, user)
     }
 
-    /// The pipeline of a pass for a view of this kind, which the draws that follow are for.
-    pub(super) fn pipeline(&self, view: &View, pass: usize) -> &RenderPipeline {
-        let shared = perspective(view) == 0 && !self.pulls.load(Ordering::Relaxed);
-        let indexed = self.indexed[pass].as_ref().filter(|_| shared);
-        draw_indexed(indexed.is_some());
-        indexed.unwrap_or(&self.pipelines[pass][perspective(view) as usize])
-    }
-
-    /// A pipeline for any pass and view, which the draws that follow are for.
-    pub(super) fn general(&self) -> &RenderPipeline {
-        draw_indexed(false);
-        &self.general
+    /// What meshes are drawn with in a pass of a view.
+    pub(super) fn meshes(&self, (index, view): (usize, &View), pass: usize) -> MeshPipeline<'_> {
+        let spot = perspective(view);
+        let indexed = self.indexed[pass].as_ref().filter(|_| spot == 0);
+        MeshPipeline {
+            pipeline: indexed.unwrap_or(&self.pipelines[pass][spot as usize]),
+            group: &self.groups[index * self.passes() + pass],
+            indexed: indexed.is_some(),
+        }
     }
 
     /// Passes per view: layers of the map.
     pub(super) fn passes(&self) -> usize {
         self.coverages.len()
-    }
-
-    /// What a pass binds in group 0.
-    pub(super) fn group(&self, view: usize, pass: usize) -> &BindGroup {
-        &self.groups[view * self.passes() + pass]
     }
 
     pub(super) fn write(&self, queue: &wgpu::Queue, views: &[View]) {

@@ -1,27 +1,24 @@
 //! Encodes the passes of a frame.
 
 use super::{
-    CasterPass, NoProbe, Probe, ShadowMap,
-    cast::Drawn,
-    caster::{self, TriangleCaster},
-    draw::Draw,
-    lists::Lists,
-    numbered::Numbered,
-    ranked::RankedTriangles,
-    textures,
+    CasterPass, NoProbe, Probe, ShadowMap, cast::Drawn, caster::TriangleCaster, draw::Draw, lists::Lists,
+    numbered::Numbered, ranked::RankedTriangles, textures,
 };
-use crate::{error::CasterError, light::View};
+use crate::error::CasterError;
 use std::sync::atomic::Ordering;
 
 impl ShadowMap {
-    /// Draws the casters of every view and filters what they leave. `draw` gets the view, whose
-    /// [`clip_from_world`](View::clip_from_world) places the casters, and a pass with a depth
-    /// attachment of [`DEPTH_FORMAT`](crate::DEPTH_FORMAT), cleared to 1, and no colour; casters in front of the near plane must be
-    /// clamped (`unclipped_depth`) or moved ([`CASTER_WGSL`](crate::CASTER_WGSL)) onto it. A technique that draws them several
-    /// times asks for each of [`caster_views`](Self::caster_views). If the technique's
-    /// [`caster`](crate::Technique::caster) is not [`Caster::Depth`](crate::technique::Caster::Depth), the pass has its pipeline and group 0 set, and
-    /// `draw`, which is called once per layer of [`Caster::Triangles`](crate::technique::Caster::Triangles), twice for [`Caster::Lists`](crate::technique::Caster::Lists), calls
-    /// [`CasterMesh::draw`](crate::CasterMesh::draw).
+    /// Draws the casters of every view and filters what they leave. `draw` gets a pass with a depth attachment of
+    /// [`DEPTH_FORMAT`](crate::DEPTH_FORMAT), cleared to 1, and no colour, which knows its
+    /// [`view`](CasterPass::view); a technique that draws casters several times asks for each of
+    /// [`caster_views`](Self::caster_views).
+    ///
+    /// Where the technique's [`caster`](crate::Technique::caster) is
+    /// [`Caster::Depth`](crate::technique::Caster::Depth), pipelines of the caller's own draw; casters in front of the
+    /// near plane must be clamped (`unclipped_depth`) or moved ([`CASTER_WGSL`](crate::CASTER_WGSL)) onto it. Else
+    /// [`CasterPass::draw_mesh`] does, and `draw` is called once per layer of
+    /// [`Caster::Triangles`](crate::technique::Caster::Triangles), twice for
+    /// [`Caster::Lists`](crate::technique::Caster::Lists).
     ///
     /// # Errors
     /// [`CasterError`] if what was drawn is not what the technique keeps. All passes are encoded
@@ -29,7 +26,7 @@ impl ShadowMap {
     pub fn encode(
         &self,
         encoder: &mut wgpu::CommandEncoder,
-        draw: impl FnMut(&View, &mut CasterPass<'_>),
+        draw: impl FnMut(&mut CasterPass<'_>),
     ) -> Result<(), CasterError> {
         self.encode_probed(encoder, &mut NoProbe, draw)
     }
@@ -42,12 +39,16 @@ impl ShadowMap {
         &self,
         encoder: &mut wgpu::CommandEncoder,
         probe: &mut dyn Probe,
-        mut draw: impl FnMut(&View, &mut CasterPass<'_>),
+        mut draw: impl FnMut(&mut CasterPass<'_>),
     ) -> Result<(), CasterError> {
         let mut drawn = Drawn::default();
-        let mut draw = |view: &View, pass: &mut CasterPass<'_>| {
-            draw(view, pass);
+        let keeps_ids = self.numbered().is_some();
+        let mut draw = |pass: &mut CasterPass<'_>| {
+            draw(pass);
             drawn.add(pass);
+            if keeps_ids {
+                self.drawn.fetch_max(pass.ids(), Ordering::Relaxed);
+            }
         };
         let last = self.jitter.len() - 1;
         self.drawn.store(0, Ordering::Relaxed);
@@ -59,8 +60,7 @@ impl ShadowMap {
             if let Some(ranked) = &self.ranked {
                 ranked.encode(encoder, seen, depth, probe, &mut draw);
             }
-            if self.numbered().is_some() {
-                self.drawn.fetch_max(caster::numbered(), Ordering::Relaxed);
+            if keeps_ids {
                 continue;
             }
             for cast in 0..=last {
@@ -92,11 +92,11 @@ impl ShadowMap {
         encoder: &mut wgpu::CommandEncoder,
         (view, cast, layer): (usize, usize, usize),
         probe: &mut dyn Probe,
-        draw: &mut impl FnMut(&View, &mut CasterPass<'_>),
+        draw: &mut impl FnMut(&mut CasterPass<'_>),
     ) {
         let target = self.triangles.is_some().then(|| self.textures.map_target(view, layer));
         let target = target.map(textures::written);
-        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        let pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("shadow cast"),
             color_attachments: if target.is_some() { std::slice::from_ref(&target) } else { &[] },
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
@@ -111,12 +111,9 @@ impl ShadowMap {
             occlusion_query_set: None,
             multiview_mask: None,
         });
-        if let Some(triangles) = &self.triangles {
-            pass.set_pipeline(triangles.pipeline(&self.views[view], layer));
-            pass.set_bind_group(0, triangles.group(view, layer), &[]);
-        }
-        let mut pass = CasterPass::new(pass, self.triangles.is_some());
-        draw(&self.caster_views[view * self.jitter.len() + cast], &mut pass);
+        let meshes = self.triangles.as_ref().map(|t| t.meshes((view, &self.views[view]), layer));
+        let index = view * self.jitter.len() + cast;
+        draw(&mut CasterPass::new(pass, (index, &self.caster_views[index]), meshes));
     }
 
     fn encode_view_filter(

@@ -197,7 +197,7 @@ impl Lists {
         (index, view): (usize, &View),
         depth: &TextureView,
         probe: &mut dyn Probe,
-        draw: &mut impl FnMut(&View, &mut CasterPass<'_>),
+        draw: &mut impl FnMut(&mut CasterPass<'_>),
     ) {
         self.counts.clear(encoder, 0..self.extent.texels());
         encoder.clear_buffer(&self.marks, 0, None);

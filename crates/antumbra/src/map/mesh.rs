@@ -1,13 +1,13 @@
 //! Meshes that cast shadows where techniques keep triangles.
 
-use super::{
-    CasterPass,
-    caster::{draws_indexed, mesh_layout, number, perspective},
-};
-use crate::{error::MeshError, light::View};
+use super::caster::mesh_layout;
+use crate::error::MeshError;
 use glam::Mat4;
-use std::{num::NonZeroU64, ops::Range};
-use wgpu::{BindGroup, Buffer, BufferUsages};
+use std::{
+    num::NonZeroU64,
+    ops::{Bound, Range, RangeBounds},
+};
+use wgpu::{BindGroup, Buffer, BufferUsages, RenderPass};
 
 /// Most triangles in one draw. Software drivers keep the vertices of a draw, which should fit their
 /// caches, and treat all of them as clipped if one is.
@@ -17,7 +17,7 @@ const BYTES: u64 = 12;
 
 /// Triangles that cast shadows for a technique whose caster is not [`Caster::Depth`]: positions and
 /// indices that the library's vertex shader reads from storage buffers, so that it sees whole
-/// triangles.
+/// triangles. [`CasterPass::draw_mesh`](crate::CasterPass::draw_mesh) draws them.
 ///
 /// [`Caster::Depth`]: crate::technique::Caster::Depth
 #[derive(Debug)]
@@ -111,42 +111,54 @@ impl CasterMesh {
         queue.write_buffer(&self.place, 0, bytemuck::bytes_of(&world_from_object));
     }
 
-    /// Draws it in the pass that [`ShadowMap::encode`](crate::ShadowMap::encode) hands out for `view`:
-    /// three vertices per triangle, six under a spot, whose triangles may have to be cut.
-    pub fn draw(&self, view: &View, pass: &mut CasterPass<'_>) {
-        self.draw_part(view, pass, self.triangles.clone());
+    /// Which of these triangles it was made of.
+    pub(super) fn within(&self, triangles: impl RangeBounds<u32>) -> Range<u32> {
+        let start = match triangles.start_bound() {
+            Bound::Included(start) => *start,
+            Bound::Excluded(before) => before.saturating_add(1),
+            Bound::Unbounded => 0,
+        };
+        let end = match triangles.end_bound() {
+            Bound::Included(last) => last.saturating_add(1),
+            Bound::Excluded(end) => *end,
+            Bound::Unbounded => u32::MAX,
+        };
+        common(&(start..end), &self.triangles)
     }
 
-    /// Draws some of its triangles, counted from the first index. Leaves out those that
-    /// [`new`](Self::new) was not given. Where the technique keeps depth nothing is drawn, and `encode` says
-    /// so.
-    pub fn draw_part(&self, view: &View, pass: &mut CasterPass<'_>, triangles: Range<u32>) {
-        let Some(pass) = pass.for_mesh() else { return };
-        let vertices = 3 * (1 + perspective(view));
-        let both = |a: &Range<u32>, b: &Range<u32>| a.start.max(b.start)..a.end.min(b.end);
-        let all = both(&triangles, &self.triangles);
-        if all.is_empty() {
-            return;
-        }
-        let indexed = draws_indexed();
-        let first = if indexed { 0 } else { number(vertices / 3 * all.start..vertices / 3 * all.end) };
-        for window in &self.windows {
-            let Range { start, end } = both(&all, &window.triangles);
-            if start >= end {
-                continue;
-            }
-            pass.set_bind_group(1, &window.group, &[]);
-            if indexed {
-                pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
-                pass.draw_indexed(3 * start..3 * end, 0, start..start + 1);
-                continue;
-            }
+    /// Draws some of them with so many `vertices` each, for shaders that read whole triangles; `first` is the
+    /// index of the only instance.
+    pub(super) fn draw(&self, pass: &mut RenderPass<'_>, triangles: Range<u32>, vertices: u32, first: u32) {
+        for (group, Range { start, end }) in self.windows(triangles) {
+            pass.set_bind_group(1, group, &[]);
             for start in (start..end).step_by(DRAWN_TOGETHER as usize) {
                 let end = end.min(start.saturating_add(DRAWN_TOGETHER));
                 pass.draw(vertices * start..vertices * end, first..first + 1);
             }
         }
     }
+
+    /// Draws some of them with vertices that they share; the index of the only instance is that of the first
+    /// triangle.
+    pub(super) fn draw_indexed(&self, pass: &mut RenderPass<'_>, triangles: Range<u32>) {
+        for (group, Range { start, end }) in self.windows(triangles) {
+            pass.set_bind_group(1, group, &[]);
+            pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
+            pass.draw_indexed(3 * start..3 * end, 0, start..start + 1);
+        }
+    }
+
+    /// What to bind in turn, and the triangles that are drawn from it.
+    fn windows(&self, triangles: Range<u32>) -> impl Iterator<Item = (&BindGroup, Range<u32>)> {
+        let windows = self.windows.iter();
+        windows
+            .map(move |window| (&window.group, common(&triangles, &window.triangles)))
+            .filter(|(_, triangles)| !triangles.is_empty())
+    }
+}
+
+fn common(a: &Range<u32>, b: &Range<u32>) -> Range<u32> {
+    a.start.max(b.start)..a.end.min(b.end)
 }
 
 /// What one binding may hold, and where it may begin.

@@ -2,6 +2,7 @@
 
 use super::{
     CasterPass, DEPTH_FORMAT, Probe,
+    cast::MeshPipeline,
     caster::{self, CasterView, VIEW_BYTES},
     pipelines::Pipelines,
 };
@@ -73,11 +74,6 @@ impl Numbered {
         compile(device, &shader, self.depth, &self.layout, user)
     }
 
-    /// The pipeline for a view of this kind.
-    pub(super) fn pipeline(&self, view: &View) -> &RenderPipeline {
-        &self.pipelines[caster::perspective(view) as usize]
-    }
-
     pub(super) fn write(&self, queue: &wgpu::Queue, views: &[View]) {
         for (i, view) in views.iter().enumerate() {
             let bytes = CasterView::new(view, self.size, Coverage::Touched);
@@ -145,10 +141,10 @@ impl Numbered {
         group: &BindGroup,
         depth: &TextureView,
         probe: &mut dyn Probe,
-        draw: &mut impl FnMut(&View, &mut CasterPass<'_>),
+        draw: &mut impl FnMut(&mut CasterPass<'_>),
     ) {
         let writes = self.depth != CompareFunction::Always;
-        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        let pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("shadow cast"),
             color_attachments: &[],
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
@@ -163,10 +159,9 @@ impl Numbered {
             occlusion_query_set: None,
             multiview_mask: None,
         });
-        pass.set_pipeline(self.pipeline(view));
-        pass.set_bind_group(0, group, &[]);
-        caster::number_anew();
-        draw(view, &mut CasterPass::new(pass, true));
+        let pipeline = &self.pipelines[caster::perspective(view) as usize];
+        let meshes = MeshPipeline { pipeline, group, indexed: false };
+        draw(&mut CasterPass::new(pass, (index, view), Some(meshes)));
     }
 }
 

@@ -123,7 +123,7 @@ impl RankedTriangles {
         (index, view): (usize, &View),
         depth: &TextureView,
         probe: &mut dyn Probe,
-        draw: &mut impl FnMut(&View, &mut CasterPass<'_>),
+        draw: &mut impl FnMut(&mut CasterPass<'_>),
     ) {
         let (view_keys, index_of) = (self.extent.view_keys(), index as u64);
         self.keys.clear(encoder, index_of * view_keys..(index_of + 1) * view_keys);

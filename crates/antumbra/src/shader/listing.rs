@@ -73,7 +73,7 @@ fn casters(
                 Coverage::Centre => device.numbers_triangles(),
             };
             let indexed = coverages.iter().filter(can).map(|coverage| Indexed(*coverage));
-            coverages.iter().copied().flat_map(pulled).chain(indexed).chain([Any]).collect()
+            coverages.iter().copied().flat_map(pulled).chain(indexed).collect()
         }
     };
     let targets: Vec<TextureFormat> = match technique.caster() {

@@ -4,7 +4,7 @@
 #![allow(dead_code, unreachable_pub, reason = "each test program uses a part")]
 
 use antumbra::{
-    CasterMesh, CasterPass, NoProbe, Options, Pipelines, ShadowMap, Size, Technique, View, technique::Caster,
+    CasterMesh, NoProbe, Options, Pipelines, ShadowMap, Size, Technique, View, technique::Caster,
 };
 use antumbra_testing::Gpu;
 use glam::{Mat4, Vec2, Vec3, Vec4};
@@ -289,10 +289,7 @@ fn triangle_map(
     let mut shadows = ShadowMap::new(&gpu.device, technique, options).unwrap();
     shadows.prepare(&gpu.queue, views).unwrap();
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    let draw = |view: &View, pass: &mut CasterPass<'_>| {
-        meshes[views.iter().position(|v| v == view).unwrap()].draw(view, pass);
-    };
-    shadows.encode(&mut encoder, draw).unwrap();
+    shadows.encode(&mut encoder, |pass| pass.draw_mesh(&meshes[pass.index()], ..)).unwrap();
     gpu.queue.submit([encoder.finish()]);
     shadows
 }

@@ -287,7 +287,7 @@ fn drawn(gpu: &Gpu, size: Size, views: &[View], triangles: &[Vec3]) -> Vec<Vec<b
     shadows.prepare(&gpu.queue, views).unwrap();
     let mesh = caster_mesh(gpu, triangles);
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    shadows.encode(&mut encoder, |view, pass| mesh.draw(view, pass)).unwrap();
+    shadows.encode(&mut encoder, |pass| pass.draw_mesh(&mesh, ..)).unwrap();
     gpu.queue.submit([encoder.finish()]);
     let map = shadows.map_texture(0).unwrap();
     let layer =

@@ -52,10 +52,10 @@ pub(super) fn drawn(
     // Twice: nothing of the first time may be left.
     for _ in 0..2 {
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        let draw = |view: &View, pass: &mut CasterPass<'_>| {
-            meshes[0].draw(view, pass);
-            meshes[1].draw_part(view, pass, 0..40);
-            meshes[1].draw_part(view, pass, 40..u32::MAX);
+        let draw = |pass: &mut CasterPass<'_>| {
+            pass.draw_mesh(&meshes[0], ..);
+            pass.draw_mesh(&meshes[1], ..40);
+            pass.draw_mesh(&meshes[1], 40..);
         };
         shadows.encode(&mut encoder, draw).unwrap();
         gpu.queue.submit([encoder.finish()]);

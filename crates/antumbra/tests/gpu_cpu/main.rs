@@ -204,6 +204,7 @@ fn main() {
     trials.add("sheets count among closed casters", silhouettes::sheets_count_among_closed_casters);
     trials.add("edges of large triangles are smooth", silhouettes::edges_are_smooth);
     trials.add("holes of cut-outs stay open", silhouettes::holes_stay_open);
+    trials.add("draws come in any order", silhouettes::draws_come_in_any_order);
     trials.add("triangles that reach behind a spot are cut", geometry::triangles_behind_a_spot_are_cut);
     trials.run();
 }

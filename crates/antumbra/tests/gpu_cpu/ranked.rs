@@ -164,7 +164,7 @@ pub(crate) fn centres_have_their_depth(gpu: &Gpu) {
         shadows.prepare(&gpu.queue, &[view]).unwrap();
         let mesh = caster_mesh(gpu, triangles.as_flattened());
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        shadows.encode(&mut encoder, |view, pass| mesh.draw(view, pass)).unwrap();
+        shadows.encode(&mut encoder, |pass| pass.draw_mesh(&mesh, ..)).unwrap();
         gpu.queue.submit([encoder.finish()]);
         let depths = compute(gpu, &shadows, user, &[0; 16], 1024, 1024);
         for (i, found) in depths.into_iter().enumerate() {
@@ -234,7 +234,7 @@ pub(crate) fn mirrored_objects_show_their_other_side(gpu: &Gpu) {
         let mesh = caster_mesh(gpu, &corners.map(|p| p * Vec3::new(scale, 1.0, 1.0)));
         mesh.place(&gpu.queue, Mat4::from_scale(Vec3::new(scale, 1.0, 1.0)));
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        shadows.encode(&mut encoder, |view, pass| mesh.draw(view, pass)).unwrap();
+        shadows.encode(&mut encoder, |pass| pass.draw_mesh(&mesh, ..)).unwrap();
         gpu.queue.submit([encoder.finish()]);
         let keys = found(gpu, &shadows, 1, 0, 1).0.concat();
         assert!(keys.len() > 300, "{} texels", keys.len());

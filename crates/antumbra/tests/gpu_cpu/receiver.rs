@@ -206,7 +206,7 @@ pub(crate) fn six_spots_are_a_point_light(gpu: &Gpu) {
         views.iter().flat_map(|view| side(-view.clip_from_world.row(3).truncate())).collect();
     let mesh = caster_mesh(gpu, &corners);
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    shadows.encode(&mut encoder, |view, pass| mesh.draw(view, pass)).unwrap();
+    shadows.encode(&mut encoder, |pass| pass.draw_mesh(&mesh, ..)).unwrap();
     gpu.queue.submit([encoder.finish()]);
     let mut random = Random::new(31);
     // Along edges and diagonals of the box, where two and three views meet, and anywhere.

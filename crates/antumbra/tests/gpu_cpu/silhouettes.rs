@@ -1,7 +1,7 @@
 //! What sub-pixel shadow maps answer near the border of a shadow, against the border itself.
 
 use crate::common::{Random, Receiver, caster_mesh, view, visibility};
-use antumbra::{CasterPass, ShadowMap, Size, Technique, View, technique::Coverage};
+use antumbra::{CasterMesh, CasterPass, CutoutCaster, ShadowMap, Size, Technique, technique::Coverage};
 use antumbra_testing::{Gpu, broken::Broken};
 use glam::{Vec2, Vec3};
 
@@ -65,18 +65,30 @@ fn answers(
     cutout: Option<&str>,
     receivers: &[Receiver],
 ) -> Vec<f32> {
+    let draw = |pass: &mut CasterPass<'_>, mesh: &CasterMesh, cutout: Option<&CutoutCaster>| match cutout {
+        Some(cutout) => pass.draw_cutout(mesh, .., cutout),
+        None => pass.draw_mesh(mesh, ..),
+    };
+    answers_where(gpu, technique, casters, (cutout, &draw), receivers)
+}
+
+/// Draws casters, and such as have holes.
+type Draw<'a> = &'a dyn Fn(&mut CasterPass<'_>, &CasterMesh, Option<&CutoutCaster>);
+
+/// The same where casters and those with holes are drawn so.
+fn answers_where(
+    gpu: &Gpu,
+    technique: &dyn Technique,
+    casters: &[Vec3],
+    (cutout, draw): (Option<&str>, Draw<'_>),
+    receivers: &[Receiver],
+) -> Vec<f32> {
     let mesh = caster_mesh(gpu, casters);
     let mut shadows = ShadowMap::new(&gpu.device, technique, MAP).unwrap();
     shadows.prepare(&gpu.queue, &[view(MAP)]).unwrap();
     let cutout = cutout.and_then(|wgsl| shadows.cutout_caster(&gpu.device, wgsl, &[]).unwrap());
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    let draw = |view: &View, pass: &mut CasterPass<'_>| {
-        if let Some(pipeline) = &cutout {
-            pass.set_pipeline(pipeline);
-        }
-        mesh.draw(view, pass);
-    };
-    shadows.encode(&mut encoder, draw).unwrap();
+    shadows.encode(&mut encoder, |pass| draw(pass, &mesh, cutout.as_ref())).unwrap();
     gpu.queue.submit([encoder.finish()]);
     visibility(gpu, &shadows, receivers)
 }
@@ -267,4 +279,42 @@ pub(crate) fn holes_stay_open(gpu: &Gpu) {
         assert_eq!(wrong(&Broken::new(spec), holed), 0, "{spec}");
     }
     assert!(wrong(&Broken::new("spsm"), whole) > 400, "a square without a hole");
+}
+
+/// Of two triangles the first is whole and the second a single hole, whichever is drawn first.
+pub(crate) fn draws_come_in_any_order(gpu: &Gpu) {
+    let [a, b, c, d] = [(9.0, 9.0), (55.0, 9.0), (9.0, 55.0), (55.0, 55.0)].map(|(x, y)| Vec2::new(x, y));
+    let casters = [a, b, c, b, d, c].map(|p| placed(p, 0.3));
+    let hole = "fn caster_covers(triangle: u32, weights: vec3f) -> bool { return false; }";
+    let receivers = receivers(&[Vec2::new(20.0, 20.0), Vec2::new(44.0, 44.0)], 1e-4);
+    let orders: [(Draw<'_>, [f32; 2]); 4] = [
+        (
+            &|pass, mesh, cutout| {
+                pass.draw_mesh(mesh, ..1);
+                pass.draw_cutout(mesh, 1.., cutout.unwrap());
+            },
+            [0.0, 1.0],
+        ),
+        (
+            &|pass, mesh, cutout| {
+                pass.draw_cutout(mesh, 1.., cutout.unwrap());
+                pass.draw_mesh(mesh, ..1);
+            },
+            [0.0, 1.0],
+        ),
+        (
+            &|pass, mesh, cutout| {
+                pass.draw_cutout(mesh, ..=0, cutout.unwrap());
+                pass.draw_mesh(mesh, 1..2);
+            },
+            [1.0, 0.0],
+        ),
+        (&|pass, mesh, cutout| pass.draw_cutout(mesh, .., cutout.unwrap()), [1.0, 1.0]),
+    ];
+    for spec in ["rgsm", "spsm", "dpm", "exact"] {
+        for (draw, expected) in orders {
+            let found = answers_where(gpu, &Broken::new(spec), &casters, (Some(hole), draw), &receivers);
+            assert_eq!(found, expected, "{spec}");
+        }
+    }
 }

@@ -30,7 +30,7 @@ pub(crate) fn split_buffers_answer_the_same(gpu: &Gpu) {
             let mesh =
                 CasterMesh::in_parts(&gpu.device, &positions, &indices, parts, Mat4::IDENTITY).unwrap();
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
-            shadows.encode(&mut encoder, |view, pass| mesh.draw(view, pass)).unwrap();
+            shadows.encode(&mut encoder, |pass| pass.draw_mesh(&mesh, ..)).unwrap();
             gpu.queue.submit([encoder.finish()]);
             let batches = receivers();
             batches.chunks(BATCH).flat_map(|batch| visibility(gpu, &shadows, batch)).collect::<Vec<f32>>()

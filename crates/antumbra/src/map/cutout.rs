@@ -1,0 +1,60 @@
+//! Casters with holes.
+
+use super::{ShadowMap, answer, check};
+use crate::{error::Unsupported, shader::Cutout, technique::Caster};
+
+/// How meshes with holes are drawn for one shadow map: made by
+/// [`ShadowMap::cutout_caster`], taken by [`CasterPass::draw_cutout`](crate::CasterPass::draw_cutout).
+#[derive(Debug, Clone)]
+pub struct CutoutCaster {
+    pub(super) pipeline: wgpu::RenderPipeline,
+}
+
+impl ShadowMap {
+    /// For casters with holes, where the technique's caster is not [`Caster::Depth`]: what
+    /// [`CasterPass::draw_cutout`](crate::CasterPass::draw_cutout) draws them with, with the caller's
+    /// own bindings, described by `layouts`, from group 2 on.
+    ///
+    /// `wgsl` declares them and defines `caster_covers(triangle: u32, weights: vec3f) -> bool`: whether
+    /// a triangle of the mesh, counted from the first index, stops light where its corners have these
+    /// weights, 0 to 1, sum 1. It may call `caster_vertex(triangle, corner) -> u32`, the index of a
+    /// corner, and samples with explicit levels. It is asked once per texel, at the triangle's point
+    /// next to the texel's centre: holes have the map's resolution, edges of their triangles
+    /// sub-texel precision, and a texel with holes says nothing about its neighbours.
+    ///
+    /// Where lookups ask ([`asks_about_cutouts`](Self::asks_about_cutouts)) every texel keeps all triangles that
+    /// touch it, holes or not, and receivers see through the holes themselves, at any size of the map. Then
+    /// `wgsl` also defines `caster_tag(triangle: u32) -> u32`, any number that `shadow_covers` will need to know the
+    /// triangle by, such as its material's, and `caster_covers` tells of the centres of texels alone.
+    ///
+    /// `None` if casters are depth.
+    ///
+    /// # Errors
+    /// [`Unsupported::Cutout`]: more bind groups than the device has, or what it says of the shader and the
+    /// number of resources. In a browser, where devices answer later, the second goes to the caller's error
+    /// scope or handler.
+    pub fn cutout_caster(
+        &self,
+        device: &wgpu::Device,
+        wgsl: &str,
+        layouts: &[&wgpu::BindGroupLayout],
+    ) -> Result<Option<CutoutCaster>, Unsupported> {
+        let technique = self.technique.as_ref();
+        if technique.caster() == Caster::Depth {
+            return Ok(None);
+        }
+        check::cutout(device, technique, layouts.len())?;
+        let (pipeline, refusal) = answer::ask_now(device, || {
+            let triangles = self.triangles.as_ref().map(|t| t.cutout(device, technique, wgsl, layouts));
+            let cutout = Cutout { wgsl, by_ray: self.asks };
+            triangles.or_else(|| self.numbered().map(|n| n.cutout(device, technique, cutout, layouts)))
+        });
+        match refusal {
+            None => Ok(pipeline.map(|pipeline| CutoutCaster { pipeline })),
+            Some(refusal) => {
+                let technique = technique.page().name.into();
+                Err(Unsupported::Cutout { technique, reason: refusal.to_string() })
+            }
+        }
+    }
+}
