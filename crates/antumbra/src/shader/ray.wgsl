@@ -33,11 +33,19 @@ fn ray_weights(a: vec3f, b: vec3f, c: vec3f) -> vec3f {
     return ray_along(a.xy, b.xy, c.xy, shares.z, squares.z);
 }
 
-/// Weights of p, q and r, of which that of r is known; `square` is that of the distance from p to q.
+/// Weights of p, q and r, of which that of r is known roughly; `square` is that of the distance from p to q.
+///
+/// The weights that r can have where the ray is along pq bound it, not the other way around: beside an edge
+/// to r the roughly known weight would say how far along that edge the ray is. The slack, two units in the last
+/// place of 1, lets r have any weight at an end of pq that it lies beside.
 fn ray_along(p: vec2f, q: vec2f, r: vec2f, share: f32, square: f32) -> vec3f {
     let along = (q - p) / square;
-    let third = clamp(share, 0.0, 1.0);
-    let second = clamp(dot(-p, along) - third * dot(r - p, along), 0.0, 1.0 - third);
+    let here = clamp(dot(-p, along), 0.0, 1.0);
+    let there = clamp(dot(r - p, along), 0.0, 1.0);
+    let slack = 2.4e-7;
+    let most = min((here + slack) / (there + slack), (1.0 - here + slack) / (1.0 - there + slack));
+    let third = clamp(share, 0.0, min(most, 1.0));
+    let second = clamp(here - third * there, 0.0, 1.0 - third);
     return vec3f(1.0 - third - second, second, third);
 }
 
