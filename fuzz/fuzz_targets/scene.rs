@@ -26,6 +26,6 @@ pub fn check(loaded: Result<Scene, ImportError>) {
     }
     let (camera, light) = (scene.main_camera(), scene.main_light());
     let with_views = Scene { cameras: vec![camera], lights: vec![light], ..scene };
-    with_views.strays();
+    let _ = with_views.strays();
     with_views.validate().unwrap();
 }

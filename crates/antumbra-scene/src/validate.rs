@@ -224,7 +224,9 @@ impl Scene {
             if !(camera.position.is_finite() && forward.is_finite() && camera.up.is_finite()) {
                 return bad(what, "position, target and up must be finite");
             }
-            if forward.normalize_or_zero().cross(camera.up.normalize_or_zero()).length() < 1e-6 {
+            // In f64, where every finite length has a square.
+            let [ahead, up] = [forward, camera.up].map(|v| v.as_dvec3().normalize_or_zero());
+            if ahead.cross(up).length() < 1e-6 {
                 return bad(what, "up must not be parallel to the line from position to target");
             }
             if !camera.projection.is_usable() {
@@ -363,6 +365,9 @@ mod tests {
             assert!(lens(Projection::Orthographic { height }).starts_with("cameras[0]: height"), "{height}");
         }
         assert!(message(|s| s.cameras[0].target = s.cameras[0].position + Vec3::Y).contains("up must not"));
+        let mut scene = procedural::by_name("contact").map(|p| p.scene(1)).unwrap_or_default();
+        scene.cameras[0].target = Vec3::X * 2e25;
+        assert_eq!(scene.validate(), Ok(()), "a length without a square in f32 has a direction");
         let long = Light::Directional { direction: Vec3::splat(2.0) };
         assert_eq!(message(|s| s.lights[0] = long), "lights[0]: direction must have length 1");
     }
