@@ -106,6 +106,27 @@ mod tests {
     }
 
     #[test]
+    fn the_largest_scene_can_be_framed() {
+        let mut scene = procedural::all()[0].scene(1);
+        (scene.cameras.clear(), scene.lights.clear());
+        let bounds = scene.bounds().unwrap();
+        let most = bounds.min.abs().max(bounds.max.abs()).max_element();
+        let scaled = |factor: f64| {
+            let mut scene = scene.clone();
+            for instance in &mut scene.instances {
+                instance.world_from_mesh =
+                    glam::DMat4::from_scale(glam::DVec3::splat(factor)) * instance.world_from_mesh;
+            }
+            scene
+        };
+        let limit = f64::from(Scene::MAX_COORDINATE) / f64::from(most);
+        let largest = scaled(limit * 0.999);
+        let (camera, light) = (largest.default_camera(), largest.default_light());
+        assert_eq!(Scene { cameras: vec![camera], lights: vec![light], ..largest }.validate(), Ok(()));
+        assert!(scaled(limit * 1.001).validate().unwrap_err().to_string().contains("within 1e36"));
+    }
+
+    #[test]
     fn the_default_sun_shines_from_behind_the_left_shoulder() {
         let scene = Scene::default();
         let camera = scene.main_camera();

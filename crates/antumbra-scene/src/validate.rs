@@ -99,8 +99,8 @@ pub enum SceneError {
         /// How many there are.
         count: usize,
     },
-    /// A placed vertex leaves the range of `f32`, or the transform is not finite.
-    #[error("instance {instance} moves vertex {vertex} of mesh {mesh} to ({x}, {y}, {z}); world positions must be finite", x = world.x, y = world.y, z = world.z)]
+    /// A placed vertex is farther out than [`Scene::MAX_COORDINATE`], or the transform is not finite.
+    #[error("instance {instance} moves vertex {vertex} of mesh {mesh} to ({x}, {y}, {z}); world positions must be finite and within {max:e} of the origin: scale the scene", x = world.x, y = world.y, z = world.z, max = Scene::MAX_COORDINATE)]
     BadTransform {
         /// Index of the instance.
         instance: usize,
@@ -142,6 +142,9 @@ impl Scene {
     pub const MAX_TRIANGLES: u64 = (u32::MAX / 3) as u64;
     /// Most vertices that a scene may have, all instances counted.
     pub const MAX_VERTICES: u64 = u32::MAX as u64;
+    /// Farthest that a placed vertex may be from the origin along an axis: what leaves room in `f32` for a camera
+    /// that sees the whole.
+    pub const MAX_COORDINATE: f32 = 1e36;
 
     /// Checks everything that [`Scene::flatten`] and its users rely on. Zero-area triangles are
     /// allowed: [`Geometry::zero_area_count`](crate::Geometry::zero_area_count) counts them.
@@ -203,7 +206,7 @@ impl Scene {
             let matrix = instance.world_from_mesh;
             for (vertex, p) in self.meshes[instance.mesh].positions.iter().enumerate() {
                 let world = matrix.transform_point3(p.as_dvec3()).as_vec3();
-                if !world.is_finite() {
+                if world.is_nan() || world.abs().max_element() > Self::MAX_COORDINATE {
                     return Err(SceneError::BadTransform {
                         instance: index,
                         mesh: instance.mesh,
