@@ -2,9 +2,10 @@
 # make test    everything that must hold before a change lands
 # make bench   times on the fence scene
 # make setup   what the three above do first: a Vulkan driver if the machine has none
+# make msrv    the library with the lowest compiler that it promises, without features and with all
 # make portability   every shader through a browser's compiler, pictures and laws on a second driver; needs Node
 
-.PHONY: demo test bench setup fmt clippy doc check-wasm portability deny golden
+.PHONY: demo test bench setup fmt clippy doc check-wasm portability msrv deny golden
 
 CARGO ?= cargo
 export RUSTDOCFLAGS = -D warnings
@@ -36,7 +37,7 @@ doc:
 # The library, and its page, must build for browsers; skipped, and said so, where the target is not installed.
 check-wasm:
 	@if rustc --print target-libdir --target wasm32-unknown-unknown 2>/dev/null | xargs test -d; then \
-		$(CARGO) check --release -p antumbra --lib --example browser --target wasm32-unknown-unknown; \
+		$(CARGO) clippy --release -p antumbra --lib --example browser --target wasm32-unknown-unknown -- -D warnings; \
 	else \
 		echo "wasm32-unknown-unknown is not installed: browser build not checked (rustup target add wasm32-unknown-unknown)"; \
 	fi
@@ -60,6 +61,16 @@ portability: setup
 	@sh scripts/swiftshader.sh $(dir $(SWIFTSHADER))
 	VK_DRIVER_FILES=$(CURDIR)/$(SWIFTSHADER) ANTUMBRA_ADAPTER=SwiftShader $(CARGO) test --release --workspace \
 		--test golden --test laws
+
+MSRV = $(shell sed -n 's/^rust-version = "\(.*\)"/\1/p' crates/antumbra/Cargo.toml)
+msrv:
+	@if rustup toolchain list 2>/dev/null | grep -q '^$(MSRV)'; then \
+		for features in --no-default-features --all-features; do \
+			$(CARGO) +$(MSRV) check -p antumbra --lib $$features --target-dir target/msrv || exit 1; \
+		done; \
+	else \
+		echo "Rust $(MSRV) is not installed: the lowest compiler not tried (rustup toolchain install $(MSRV) --profile minimal)"; \
+	fi
 
 # Licences and advisories of all dependencies; needs cargo-deny.
 deny:

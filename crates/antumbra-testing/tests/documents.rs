@@ -112,13 +112,15 @@ fn make_has_the_targets_that_documents_name() {
 /// documentation.
 #[test]
 fn versions_are_those_of_the_manifest() {
-    let manifest = read("Cargo.toml");
-    let value = |key: &str| {
+    let in_manifest = |path: &str, key: &str| {
+        let manifest = read(path);
         let line = manifest.lines().find(|line| line.starts_with(&format!("{key} = "))).unwrap();
         line.split('"').nth(1).unwrap().to_string()
     };
+    let value = |key| in_manifest("Cargo.toml", key);
     let short = |version: String| version.splitn(3, '.').take(2).collect::<Vec<_>>().join(".");
-    let [antumbra, rust] = ["version", "rust-version"].map(|key| short(value(key)));
+    let antumbra = short(value("version"));
+    let rust = in_manifest("crates/antumbra/Cargo.toml", "rust-version");
     let [wgpu, glam] = ["wgpu", "glam"].map(value);
     let row = format!("| {antumbra} | {wgpu} | {glam} | {rust} |");
     for document in ["README.md", "crates/antumbra/src/lib.rs"] {

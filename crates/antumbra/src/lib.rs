@@ -50,7 +50,7 @@
 //!
 //! | antumbra | wgpu | glam | Rust |
 //! | --- | --- | --- | --- |
-//! | 0.1 | 30 | 0.34 | 1.95 |
+//! | 0.1 | 30 | 0.34 | 1.87 |
 //!
 //! Types of [`wgpu`] and [`glam`] are part of the interface, so versions must agree; both are exported
 //! again. antumbra switches on none of wgpu's backends: your own dependency on it says which you ship.
