@@ -32,13 +32,13 @@ pub fn fit(
     cascades: u32,
     maps: &[&ShadowMap],
 ) -> Result<Vec<View>> {
-    let stage = antumbra::Stage {
+    let fit = antumbra::CameraFit {
         camera,
         scene: Bounds { min: scene.min, max: scene.max },
         size: maps.first().context("no shadow map")?.size(),
         margin_texels: maps.iter().map(|s| s.margin_texels()).fold(1.0, f32::max),
     };
-    library_light(light).views(&stage, Cascades::new(cascades)).context("the light has no view")
+    library_light(light).views(&fit, Cascades::new(cascades)).context("the light has no view")
 }
 
 /// Which of a light's views shades a point, as techniques choose: the first that contains the point

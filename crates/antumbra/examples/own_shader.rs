@@ -6,7 +6,7 @@
 mod common;
 
 use antumbra::{
-    Bounds, CASTER_WGSL, Capabilities, Cascades, CasterMesh, Light, Options, ShadowMap, Size, Stage,
+    Bounds, CASTER_WGSL, CameraFit, Capabilities, Cascades, CasterMesh, Light, Options, ShadowMap, Size,
     technique::{self, Caster},
 };
 use common::{HEIGHT, Mesh, WIDTH};
@@ -99,7 +99,7 @@ pub fn run(
         let mut shadows =
             ShadowMap::new(device, technique.as_ref(), Options::from(Size::square(512)).views(3))?;
         let views = sun.views(
-            &Stage {
+            &CameraFit {
                 camera: camera(),
                 scene: Bounds { min: Vec3::new(-20.0, -1.0, -80.0), max: Vec3::new(20.0, 5.0, 20.0) },
                 size: shadows.size(),

@@ -4,7 +4,7 @@
 
 mod common;
 
-use antumbra::{Bounds, Cascades, CasterPass, Esm, Light, Options, ShadowMap, Size, Stage, glam, wgpu};
+use antumbra::{Bounds, CameraFit, Cascades, CasterPass, Esm, Light, Options, ShadowMap, Size, glam, wgpu};
 use common::{HEIGHT, Mesh, WIDTH};
 use glam::{Mat4, Vec3, camera::rh};
 
@@ -33,7 +33,7 @@ fn cast(
 ) -> Result<(), Box<dyn std::error::Error>> {
     let sun = Light::Directional { direction: Vec3::new(0.7, -1.0, -0.25) };
     let (size, margin_texels) = (shadows.size(), shadows.margin_texels());
-    let views = sun.views(&Stage { camera, scene, size, margin_texels }, Cascades::new(4))?;
+    let views = sun.views(&CameraFit { camera, scene, size, margin_texels }, Cascades::new(4))?;
     shadows.prepare(queue, &views)?;
     shadows.encode(encoder, draw_depth)?; // your own depth pipeline, with pass.view().clip_from_world
     Ok(())

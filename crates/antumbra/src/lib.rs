@@ -72,7 +72,7 @@
 //!   this pixel to the next.
 //! - It is 1, lit, outside every view: beyond the last cascade, beside the square around a spot's cone,
 //!   where there is no view.
-//! - Cascades reach as far as [`Stage::camera`] sees of [`Stage::scene`]: a finite far plane there is the
+//! - Cascades reach as far as [`CameraFit::camera`] sees of [`CameraFit::scene`]: a finite far plane there is the
 //!   distance up to which there are shadows.
 //! - A point light is six spots with an outer angle of 45° along ±x, ±y and ±z, until there is one: six
 //!   views of one map.
@@ -161,7 +161,6 @@ mod bias;
 mod bound;
 mod camera;
 mod capabilities;
-mod cascade;
 mod error;
 mod filter;
 mod kernel;
@@ -179,11 +178,10 @@ pub use wgpu;
 
 pub use camera::visible_hull;
 pub use capabilities::Capabilities;
-pub use cascade::{Cascades, Stage};
 pub use error::{CasterError, LightError, MeshError, SettingError, Unsupported};
 pub use filter::{Filter, Sampling, Values};
 pub use kernel::{Kernel, Weights};
-pub use light::{Bounds, Fit, Light, Size, View};
+pub use light::{Bounds, CameraFit, Cascades, Fit, Light, Size, View};
 pub use map::{
     Capacity, CasterMesh, CasterPass, CutoutCaster, DEPTH_FORMAT, Lifetime, Memory, MemoryItem, MeshPart,
     NoProbe, Options, Pipelines, Probe, ShadowMap, TooManyViews,

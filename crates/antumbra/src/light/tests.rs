@@ -1,4 +1,5 @@
 use super::*;
+use glam::Vec4;
 
 const BOX: Bounds = Bounds { min: Vec3::new(-10.0, 0.0, -10.0), max: Vec3::new(10.0, 5.0, 10.0) };
 

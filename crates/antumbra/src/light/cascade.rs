@@ -1,10 +1,7 @@
 //! Cascades: several views of one directional light, each for a range of the camera's distance.
 
-use crate::{
-    camera::Sight,
-    error::LightError,
-    light::{Bounds, Fit, Light, Size, View},
-};
+use super::{Bounds, Fit, Size};
+use crate::{camera::Sight, error::LightError};
 use glam::Mat4;
 
 /// How the camera's range is divided.
@@ -24,6 +21,19 @@ impl Cascades {
         Self { count, blend: 0.7 }
     }
 
+    /// # Errors
+    /// [`LightError::Cascades`], [`LightError::Blend`].
+    pub(super) fn check(&self) -> Result<(), LightError> {
+        const MAX: u32 = 8;
+        if !(1..=MAX).contains(&self.count) {
+            return Err(LightError::Cascades { count: self.count, max: MAX });
+        }
+        if !(0.0..=1.0).contains(&self.blend) {
+            return Err(LightError::Blend { blend: self.blend });
+        }
+        Ok(())
+    }
+
     /// Ends of the ranges: `count + 1` distances from `near` to `far`, both positive.
     #[must_use]
     pub fn splits(&self, near: f32, far: f32) -> Vec<f32> {
@@ -38,9 +48,9 @@ impl Cascades {
     }
 }
 
-/// What a light's views are fitted to.
+/// A camera and a scene that a light's views are fitted to.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stage {
+pub struct CameraFit {
     /// The camera: world to clip space, z in `[0,1]`. It may be perspective or orthographic, off-centre, its
     /// depth reversed or infinite. Shadows reach as far as it sees: give it a finite far plane for a distance.
     pub camera: Mat4,
@@ -52,66 +62,50 @@ pub struct Stage {
     pub margin_texels: f32,
 }
 
-impl Light {
-    /// One view per cascade that sees any receiver, nearest first, each fitted to the part of the
-    /// scene that the camera sees in its range. Spots ignore the cascades and have one view.
-    ///
-    /// Ranges run along the camera's line of sight. Those of an orthographic camera are even, whatever the
-    /// blend: its pixels are equally large at any distance. (Which of its ends is the nearer is told by a
-    /// world that is right-handed.)
+impl CameraFit {
+    /// What each cascade that sees any receiver is fitted to, nearest first.
     ///
     /// # Errors
-    /// [`LightError`], among them [`LightError::NothingVisible`] if the camera sees nothing and
-    /// [`LightError::Camera`] if its matrix is not finite or has no inverse.
-    pub fn views(&self, stage: &Stage, cascades: Cascades) -> Result<Vec<View>, LightError> {
-        const MOST: u32 = 8;
-        if !(1..=MOST).contains(&cascades.count) {
-            return Err(LightError::Cascades { count: cascades.count, max: MOST });
-        }
-        if !(0.0..=1.0).contains(&cascades.blend) {
-            return Err(LightError::Blend { blend: cascades.blend });
-        }
-        stage.scene.check("scene")?;
-        let sight = Sight::new(stage.camera, &stage.scene)?;
-        let everything = sight.hull(&stage.scene, 0.0..=f32::INFINITY);
+    /// As [`Light::views`](super::Light::views).
+    pub(super) fn divided(&self, cascades: Cascades) -> Result<Vec<Fit>, LightError> {
+        self.scene.check("scene")?;
+        let sight = Sight::new(self.camera, &self.scene)?;
+        let everything = sight.hull(&self.scene, 0.0..=f32::INFINITY);
         if everything.is_empty() {
             return Err(LightError::NothingVisible { at: String::new() });
         }
         let fit = |receivers| Fit {
-            casters: stage.scene,
+            casters: self.scene,
             receivers,
-            size: stage.size,
-            margin_texels: stage.margin_texels,
+            size: self.size,
+            margin_texels: self.margin_texels,
         };
-        if cascades.count == 1 || matches!(self, Self::Spot { .. }) {
-            return Ok(vec![self.view(&fit(everything))?]);
+        if cascades.count == 1 {
+            return Ok(vec![fit(everything)]);
         }
         let far = everything.iter().map(|p| sight.distance(*p)).fold(0.0, f32::max);
         let near = everything.iter().map(|p| sight.distance(*p)).fold(far, f32::min).max(far * 1e-3);
         // No part of an orthographic picture needs finer texels than another.
         let blend = if sight.orthographic { 0.0 } else { cascades.blend };
         let splits = Cascades { blend, ..cascades }.splits(near, far * 1.0001);
-        let mut views = Vec::new();
-        for pair in splits.windows(2) {
+        let seen = splits.windows(2).map(|pair| {
             // The first range reaches back to the eye.
             let start = if pair[0] == splits[0] { 0.0 } else { pair[0] };
-            let seen = sight.hull(&stage.scene, start..=pair[1]);
-            if !seen.is_empty() {
-                views.push(self.view(&fit(seen))?);
-            }
-        }
-        Ok(views)
+            sight.hull(&self.scene, start..=pair[1])
+        });
+        Ok(seen.filter(|seen| !seen.is_empty()).map(fit).collect())
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::light::{Light, View};
     use glam::{Vec3, camera::rh};
 
-    fn stage() -> Stage {
+    fn fit() -> CameraFit {
         let look = rh::view::look_at_mat4(Vec3::new(0.0, 2.0, 50.0), Vec3::ZERO, Vec3::Y);
-        Stage {
+        CameraFit {
             camera: rh::proj::directx::perspective(1.0, 1.3, 0.1, 500.0) * look,
             scene: Bounds { min: Vec3::new(-50.0, 0.0, -50.0), max: Vec3::new(50.0, 10.0, 50.0) },
             size: Size::square(1024),
@@ -131,20 +125,20 @@ mod tests {
     #[test]
     fn nearer_cascades_have_finer_texels() {
         let sun = Light::Directional { direction: Vec3::new(0.3, -1.0, 0.1) };
-        let views = sun.views(&stage(), Cascades::new(4)).unwrap();
+        let views = sun.views(&fit(), Cascades::new(4)).unwrap();
         assert_eq!(views.len(), 4);
         assert!(views.windows(2).all(|v| v[0].texel_world <= v[1].texel_world));
         assert!(views[0].texel_world < 0.5 * views[3].texel_world);
-        let one = sun.views(&stage(), Cascades::new(1)).unwrap();
+        let one = sun.views(&fit(), Cascades::new(1)).unwrap();
         assert!(one[0].texel_world >= views[3].texel_world);
     }
 
     #[test]
     fn no_cascades_and_nothing_in_sight_are_refused() {
         let sun = Light::Directional { direction: Vec3::NEG_Y };
-        assert!(matches!(sun.views(&stage(), Cascades::new(0)), Err(LightError::Cascades { .. })));
+        assert!(matches!(sun.views(&fit(), Cascades::new(0)), Err(LightError::Cascades { .. })));
         let above = Bounds { min: Vec3::new(0.0, 0.0, 60.0), max: Vec3::new(1.0, 1.0, 61.0) };
-        let blind = Stage { scene: above, ..stage() };
+        let blind = CameraFit { scene: above, ..fit() };
         assert!(matches!(sun.views(&blind, Cascades::new(2)), Err(LightError::NothingVisible { .. })));
     }
 
@@ -155,9 +149,9 @@ mod tests {
         // Standard and reversed depth.
         for (near, far) in [(0.1, 500.0), (500.0, 0.1)] {
             let lens = rh::proj::directx::orthographic(-40.0, 40.0, -30.0, 30.0, near, far);
-            let stage = Stage { camera: lens * look, ..stage() };
-            let one = sun.views(&stage, Cascades::new(1)).unwrap();
-            let views = sun.views(&stage, Cascades::new(4)).unwrap();
+            let fit = CameraFit { camera: lens * look, ..fit() };
+            let one = sun.views(&fit, Cascades::new(1)).unwrap();
+            let views = sun.views(&fit, Cascades::new(4)).unwrap();
             assert_eq!(views.len(), 4);
             // Nearest first: the point where each view is centred goes away from the camera.
             let distance = |view: &View| {
@@ -173,8 +167,8 @@ mod tests {
     #[test]
     fn a_scaled_matrix_is_the_same_camera() {
         let sun = Light::Directional { direction: Vec3::new(0.3, -1.0, 0.1) };
-        let scaled = Stage { camera: stage().camera * 1000.0, ..stage() };
-        let [plain, scaled] = [stage(), scaled].map(|s| sun.views(&s, Cascades::new(4)).unwrap());
+        let scaled = CameraFit { camera: fit().camera * 1000.0, ..fit() };
+        let [plain, scaled] = [fit(), scaled].map(|s| sun.views(&s, Cascades::new(4)).unwrap());
         assert_eq!(plain.len(), scaled.len());
         assert!(plain.iter().zip(&scaled).all(|(a, b)| a.texel_world == b.texel_world));
     }
@@ -183,19 +177,20 @@ mod tests {
     fn cameras_and_scenes_that_are_none_are_refused_by_name() {
         let sun = Light::Directional { direction: Vec3::new(0.3, -1.0, 0.1) };
         let spot = Light::Spot { position: Vec3::Y * 9.0, direction: Vec3::NEG_Y, outer_angle: 0.6 };
-        assert!(sun.views(&stage(), Cascades::new(4)).is_ok(), "negative control");
+        assert!(sun.views(&fit(), Cascades::new(4)).is_ok(), "negative control");
         for light in [sun, spot] {
             for camera in [Mat4::NAN, Mat4::ZERO, Mat4::from_scale(Vec3::new(1.0, 1.0, 0.0))] {
                 for count in [1, 4] {
-                    let error = light.views(&Stage { camera, ..stage() }, Cascades::new(count)).unwrap_err();
+                    let error =
+                        light.views(&CameraFit { camera, ..fit() }, Cascades::new(count)).unwrap_err();
                     assert!(matches!(error, LightError::Camera { .. }), "{error}");
                 }
             }
             let scene = Bounds { min: Vec3::NAN, max: Vec3::ONE };
-            let error = light.views(&Stage { scene, ..stage() }, Cascades::new(2)).unwrap_err();
+            let error = light.views(&CameraFit { scene, ..fit() }, Cascades::new(2)).unwrap_err();
             assert!(matches!(error, LightError::Bounds { what: "scene", .. }), "{error}");
             for blend in [f32::NAN, -0.1, 1.5] {
-                let error = light.views(&stage(), Cascades { count: 2, blend }).unwrap_err();
+                let error = light.views(&fit(), Cascades { count: 2, blend }).unwrap_err();
                 assert!(matches!(error, LightError::Blend { .. }), "{error}");
             }
         }
