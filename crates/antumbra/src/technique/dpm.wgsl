@@ -35,8 +35,9 @@ fn dpm_stops(view: u32, n: u32, a: vec3f, b: vec3f, c: vec3f) -> bool { // cut-o
 ///
 /// Full texels may lack triangles: those that are less worth keeping than the last one. The far sides of
 /// closed casters alone make their whole shadow, so that a receiver which lies before a far side that was
-/// kept is lit; unless some single sheet is missing, which the texel's centre is asked for. There the
-/// receiver's own surface must not count: it gets as much room as it rises within a texel.
+/// kept is lit; unless some single sheet is missing, which the texel's centre is asked for. Neither may the
+/// receiver's own surface count, whose twin with the other winding is a far side too: it gets as much room as it
+/// rises within a texel.
 fn dpm_class_at(casters: texture_depth_2d_array, point: vec2f, view: u32, depth: f32, gain: vec2f) -> u32 {
     let size = textureDimensions(casters);
     let texel = min(vec2u(max(point, vec2f(0.0))), size - 1u);
@@ -67,7 +68,9 @@ fn dpm_class_at(casters: texture_depth_2d_array, point: vec2f, view: u32, depth:
         }
     }
     let before = depth - dot(abs(gain), vec2f(1.0));
-    let complete = (key_is_near(key) || key_deeper(key, step, bits)) && !dpm_occluded(casters, vec2i(texel), point, view, before, gain);
+    let least = key_step(raster_linear(clamp(before, 0.0, 1.0), shadow_near_over_far(view)), bits);
+    let last = key_is_near(key) || key_begin(key, bits) >= least;
+    let complete = last && !dpm_occluded(casters, vec2i(texel), point, view, before, gain);
     return select(dpm_uncertain, dpm_lit, complete);
 }
 
