@@ -34,10 +34,12 @@ clippy:
 doc:
 	$(CARGO) doc --release --workspace --no-deps
 
-# The library, and its page, must build for browsers; skipped, and said so, where the target is not installed.
+# The library with its page and what draws scenes must build for browsers; skipped, and said so, where the target is
+# not installed.
 check-wasm:
 	@if rustc --print target-libdir --target wasm32-unknown-unknown 2>/dev/null | xargs test -d; then \
-		$(CARGO) clippy --release -p antumbra --lib --example browser --target wasm32-unknown-unknown -- -D warnings; \
+		$(CARGO) clippy --release -p antumbra --lib --example browser --target wasm32-unknown-unknown -- -D warnings && \
+		$(CARGO) clippy --release -p antumbra-render --target wasm32-unknown-unknown -- -D warnings; \
 	else \
 		echo "wasm32-unknown-unknown is not installed: browser build not checked (rustup target add wasm32-unknown-unknown)"; \
 	fi

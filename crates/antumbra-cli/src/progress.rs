@@ -3,7 +3,7 @@
 //! A command is a row of phases, each with the share of the work that it is expected to be. The bar moves
 //! through all of them and never back, and says how much time is left once enough has passed to tell.
 
-use antumbra_lab::{compare::Progress, gpu::Gpu};
+use antumbra_lab::{gpu::Gpu, progress::Progress};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::{
     io::{self, Write},

@@ -6,7 +6,7 @@ use crate::{
     names, views,
 };
 use antumbra::technique::Bias;
-use antumbra_lab::{default_view, setting::Setting};
+use antumbra_lab::{default_view, shot::Shot};
 use antumbra_scene::{Camera, Geometry, Light, Projection, Scene, import, procedural};
 use anyhow::{Context, Result, anyhow, bail};
 use glam::DVec3;
@@ -34,12 +34,12 @@ pub(crate) fn check_view(arguments: &ViewArguments) -> Result<()> {
 }
 
 /// Loads and checks everything before any work is done.
-pub(crate) fn load(arguments: &SceneArguments) -> Result<Setting> {
-    Ok(Setting { bias: bias(&arguments.bias)?, ..load_view(&arguments.scene, &arguments.view)? })
+pub(crate) fn load(arguments: &SceneArguments) -> Result<Shot> {
+    Ok(Shot { bias: bias(&arguments.bias)?, ..load_view(&arguments.scene, &arguments.view)? })
 }
 
 /// The same with [`Bias::Auto`].
-pub(crate) fn load_view(name: &str, arguments: &ViewArguments) -> Result<Setting> {
+pub(crate) fn load_view(name: &str, arguments: &ViewArguments) -> Result<Shot> {
     let resolution = resolution(&arguments.resolution)?;
     let mut scene = open(name, arguments.seed, &arguments.file)?;
     arrange(&mut scene, &arguments.arrangement)?;
@@ -60,7 +60,7 @@ pub(crate) fn load_view(name: &str, arguments: &ViewArguments) -> Result<Setting
     if arguments.cascades > 1 && matches!(light, Light::Spot { .. }) {
         note(&format!("--cascades {}: a spot has one view; cascades are a sun's", arguments.cascades));
     }
-    Ok(Setting {
+    Ok(Shot {
         name: name.into(),
         geometry: Arc::new(geometry),
         camera,

@@ -1,12 +1,12 @@
 //! Techniques as they are named on the command line.
 
 use antumbra::Technique;
-use antumbra_lab::compare;
+use antumbra_lab::specs;
 use antumbra_scene::procedural;
 use anyhow::{Result, bail};
 use std::path::Path;
 
-/// Reads specs as [`compare::techniques`] does.
+/// Reads specs as [`specs::techniques`] does.
 ///
 /// # Errors
 /// As there; a word that names a scene is told to stand in the wrong place.
@@ -17,7 +17,7 @@ pub(crate) fn read(specs: &[String], kernel: u32) -> Result<Vec<Box<dyn Techniqu
              first (antumbra compare {scene} --techniques hard pcf)"
         );
     }
-    compare::techniques(specs, kernel)
+    specs::techniques(specs, kernel)
 }
 
 fn names_scene(word: &str) -> bool {

@@ -4,8 +4,8 @@
 //!
 //! The scores are measured on those images; times and memory are made up, and the page says so.
 
+use antumbra_lab::image::{GrayImage, Rgba8Image, crop, error_heat_map};
 use antumbra_lab::metrics::{Score, no_shadow_baseline, score};
-use antumbra_lab::plane::{Plane, Rgba8Image, crop, error_heat_map};
 use antumbra_lab::report;
 use antumbra_lab::results::{
     AdapterFacts, BoundsFacts, CameraFacts, Family, LensFacts, Lifetime, LightFacts, MemoryItem,
@@ -27,9 +27,9 @@ type Images = BTreeMap<String, Vec<u8>>;
 
 /// The three truths and the mask.
 struct Truth {
-    hard: Plane,
-    light_space: Plane,
-    screen_space: Plane,
+    hard: GrayImage,
+    light_space: GrayImage,
+    screen_space: GrayImage,
     shadowable: Vec<bool>,
 }
 
@@ -186,9 +186,9 @@ const SAMPLES: [Sample; 7] = [
     },
 ];
 
-fn plane(visibility: impl Fn(f32, f32) -> f32) -> Plane {
+fn plane(visibility: impl Fn(f32, f32) -> f32) -> GrayImage {
     let floor = |x, y| if y < HORIZON { 1.0 } else { visibility(x as f32 + 0.5, y as f32 + 0.5) };
-    Plane::from_fn(WIDTH, HEIGHT, floor)
+    GrayImage::from_fn(WIDTH, HEIGHT, floor)
 }
 
 fn truth(images: &mut Images) -> Result<Truth, Box<dyn Error>> {
@@ -208,7 +208,7 @@ fn truth(images: &mut Images) -> Result<Truth, Box<dyn Error>> {
     Ok(truth)
 }
 
-fn picture(visibility: &Plane) -> Result<Rgba8Image, Box<dyn Error>> {
+fn picture(visibility: &GrayImage) -> Result<Rgba8Image, Box<dyn Error>> {
     let encode = |linear: f32| (linear.clamp(0.0, 1.0).powf(1.0 / 2.2) * 255.0).round() as u8;
     let pixel = |(i, v): (usize, &f32)| {
         let y = (i as u32 / WIDTH) as f32;
@@ -240,7 +240,7 @@ fn technique(s: &Sample, truth: &Truth, images: &mut Images) -> Result<Technique
         error_light_space: add("error-light-space", heat(&truth.light_space)?.to_png()?),
         classes: None,
     };
-    let against = |plane: &Plane| score(&visibility, plane, &truth.shadowable);
+    let against = |plane: &GrayImage| score(&visibility, plane, &truth.shadowable);
     Ok(TechniqueResult {
         name: s.spec.split('.').next().unwrap_or(s.spec).into(),
         spec: s.spec.into(),
@@ -267,7 +267,7 @@ fn technique(s: &Sample, truth: &Truth, images: &mut Images) -> Result<Technique
     })
 }
 
-fn contact(visibility: &Plane, truth: &Truth) -> Result<Score, Box<dyn Error>> {
+fn contact(visibility: &GrayImage, truth: &Truth) -> Result<Score, Box<dyn Error>> {
     let [x, y, w, h] = CONTACT;
     let mask = crop(&truth.shadowable, [WIDTH, HEIGHT], CONTACT)?;
     Ok(score(&visibility.crop(x, y, w, h)?, &truth.light_space.crop(x, y, w, h)?, &mask)?)

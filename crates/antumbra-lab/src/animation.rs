@@ -1,21 +1,21 @@
 //! Moving pictures: animated PNGs, which every browser shows and which lose nothing.
 
-use crate::plane::PlaneError;
+use crate::image::ImageError;
 
 /// An animated 8-bit gray PNG that repeats for ever. Frames hold `width · height` bytes each, row by
 /// row from the top; what cannot show animations shows the first.
 ///
 /// # Errors
-/// [`PlaneError::Png`] for an empty image or no frames, [`PlaneError::Length`] for frames of another
+/// [`ImageError::Png`] for an empty image or no frames, [`ImageError::Length`] for frames of another
 /// size.
 pub fn gray(
     [width, height]: [u32; 2],
     frames: &[Vec<u8>],
     frames_per_second: u16,
-) -> Result<Vec<u8>, PlaneError> {
+) -> Result<Vec<u8>, ImageError> {
     let expected = width as usize * height as usize;
     if let Some(frame) = frames.iter().find(|frame| frame.len() != expected) {
-        return Err(PlaneError::Length { width, height, expected, got: frame.len() });
+        return Err(ImageError::Length { width, height, expected, got: frame.len() });
     }
     let encode = || -> Result<Vec<u8>, png::EncodingError> {
         let mut file = Vec::new();
@@ -32,7 +32,7 @@ pub fn gray(
         writer.finish()?;
         Ok(file)
     };
-    encode().map_err(|source| PlaneError::Png { width, height, source })
+    encode().map_err(|source| ImageError::Png { width, height, source })
 }
 
 #[cfg(test)]
@@ -58,7 +58,7 @@ mod tests {
 
     #[test]
     fn no_frames_and_wrong_sizes_are_refused() {
-        assert!(matches!(gray([4, 3], &[], 20), Err(PlaneError::Png { .. })));
-        assert!(matches!(gray([4, 3], &[vec![0; 11]], 20), Err(PlaneError::Length { got: 11, .. })));
+        assert!(matches!(gray([4, 3], &[], 20), Err(ImageError::Png { .. })));
+        assert!(matches!(gray([4, 3], &[vec![0; 11]], 20), Err(ImageError::Length { got: 11, .. })));
     }
 }

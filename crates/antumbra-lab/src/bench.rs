@@ -1,12 +1,14 @@
 //! Times of techniques and of the ray tracer, without scores: the content of `bench --json`.
 
 use crate::{
-    compare::{self, Contestant, Progress, facts},
+    facts,
     gpu::Gpu,
-    lighting::Lookup,
+    prepared::Prepared,
+    progress::Progress,
     results::{Family, LeftOut, MemoryResult, RunFacts, TimeResult, Work},
-    setting::{Setting, Setup},
-    timing::{self, Entrant},
+    session::Session,
+    shot::Shot,
+    truth::{TracedShot, Truth},
 };
 use antumbra::{Technique, technique};
 use anyhow::Result;
@@ -68,53 +70,48 @@ pub struct TechniqueTime {
 /// Times all `techniques` in turns, `rounds` frames each, and then the hard truth.
 ///
 /// # Errors
-/// As [`Setting::set_up`]; a lost device.
+/// As [`Session::new`]; a lost device.
 pub fn measure(
     gpu: &Gpu,
-    setting: &Setting,
+    shot: &Shot,
     techniques: &[Box<dyn Technique>],
     rounds: u32,
     command: Vec<String>,
     progress: &dyn Progress,
 ) -> Result<Results> {
     progress.step("upload");
-    let Setup { stage, lighting, contestants, left_out, views } = setting.set_up(gpu, techniques)?;
-    let unshadowed = Lookup::unshadowed(gpu, &stage);
-    let mut entrants = vec![Entrant { shadows: None, lookup: &unshadowed }];
-    entrants.extend(contestants.iter().map(Contestant::entrant));
+    let session = Session::new(gpu, shot, techniques)?;
     progress.step("time");
-    let mut times = timing::race(gpu, &stage, &lighting, &entrants, rounds, &|s| progress.share(s))?;
-    let hard = contestants.iter().position(|c| c.shadows.technique().page().name == "hard");
-    let unshadowed = times.remove(0);
-    timing::relate(&mut times, &unshadowed, hard);
+    let times = session.time(rounds, progress)?;
     progress.step("truth");
     let start = Instant::now();
-    let tracer = setting.tracer()?;
+    let traced = TracedShot::new(shot)?;
     let seconds_build = start.elapsed().as_secs_f64();
     let start = Instant::now();
-    let hard = tracer.hard(&setting.rays()?, &setting.light);
+    traced.trace(Truth::Hard, session.views(), progress)?;
     let truth = TruthTime { seconds_build, seconds_hard: start.elapsed().as_secs_f64() };
-    drop(hard);
-    let timed = |(contestant, time): (&Contestant, TimeResult)| {
-        let technique = contestant.shadows.technique();
-        let page = technique.page();
-        TechniqueTime {
-            name: page.name.into(),
-            spec: technique::spec(technique),
-            title: page.title.into(),
-            family: page.family,
-            time,
-            memory: compare::memory(&contestant.shadows.memory()),
-            work: compare::work(&contestant.shadows),
-            invalid: contestant.invalid(),
-        }
-    };
     Ok(Results {
         schema: SCHEMA.into(),
-        run: facts::run(gpu, setting, &views, command)?,
+        run: facts::run(gpu, &session, command)?,
         truth,
-        unshadowed,
-        techniques: contestants.iter().zip(times).map(timed).collect(),
-        left_out,
+        unshadowed: times.unshadowed,
+        techniques: session.prepared().iter().zip(times.techniques).map(timed).collect(),
+        left_out: session.left_out().to_vec(),
     })
+}
+
+/// One entry of the results.
+fn timed((prepared, time): (&Prepared, TimeResult)) -> TechniqueTime {
+    let shadows = &prepared.shadows;
+    let page = shadows.technique().page();
+    TechniqueTime {
+        name: page.name.into(),
+        spec: technique::spec(shadows.technique()),
+        title: page.title.into(),
+        family: page.family,
+        time,
+        memory: facts::memory(&shadows.memory()),
+        work: facts::work(shadows),
+        invalid: prepared.invalid(),
+    }
 }

@@ -1,36 +1,38 @@
 //! What biases cost and give: acne against detached shadows.
 
 use crate::{
-    compare::{Progress, ideal_kernel},
     gpu::Gpu,
+    image::GrayImage,
+    map_views::MapViews,
     metrics::LIT_THRESHOLD,
-    plane::Plane,
+    progress::Progress,
     results::LeftOut,
-    setting::{Setting, Setup},
-    views::MapViews,
+    session::Session,
+    shot::{Entry, Shot},
+    truth::{TracedShot, Truth, TruthImage},
 };
 use antumbra::{Technique, technique, technique::Bias};
 use antumbra_scene::Light;
-use antumbra_truth::{CameraRays, Hit, Ray, Tracer, Visibility};
+use antumbra_truth::{Hit, Ray};
 use anyhow::{Context, Result};
 use glam::DVec3;
 use rayon::prelude::*;
 use serde::Serialize;
-use std::collections::{BTreeMap, btree_map::Entry};
+use std::collections::{BTreeMap, btree_map};
 
 /// Width of a bin of gaps between receiver and caster, texels.
 const BIN_TEXELS: f64 = 0.5;
 /// Gaps up to which shadows are looked at, texels.
-const FARTHEST_TEXELS: f64 = 16.0;
-/// Pixels that a bin must hold to be heard.
-const FEWEST: u32 = 8;
+const MAX_GAP_TEXELS: f64 = 16.0;
+/// Pixels that a bin must hold to count.
+const MIN_PIXELS: u32 = 8;
 /// Visibility in the ideal up to which a pixel's shadow may be missed: deeper inside than edges move by
 /// aliasing.
 const SHADOWED: f32 = 0.25;
 /// Tolerance within which an ideal counts as fully lit.
 const ROUNDING: f32 = 1e-3;
 
-/// Share of the fully lit pixels that may be answered shadowed with a fixed bias that [`Standing`] lets
+/// Share of the fully lit pixels that may be answered shadowed with a fixed bias that [`Ranking`] lets
 /// compete: beyond, it fails at what biases are for, however small its error.
 pub const TOLERATED_ACNE: f64 = 0.01;
 
@@ -38,10 +40,10 @@ pub const TOLERATED_ACNE: f64 = 0.01;
 #[derive(Debug)]
 pub struct Request<'a> {
     /// The scene, how it is seen and lit, and its maps; each technique has the ideal of its own kernel.
-    pub setting: &'a Setting,
+    pub shot: &'a Shot,
     /// The techniques.
     pub techniques: &'a [Box<dyn Technique>],
-    /// The biases that each of them is given instead of the setting's.
+    /// The biases that each of them is given instead of the shot's.
     pub settings: &'a [Bias],
 }
 
@@ -79,7 +81,7 @@ pub struct Study {
 
 /// [`Bias::Auto`] among the other biases of one technique.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Standing<'a> {
+pub struct Ranking<'a> {
     /// Of [`Bias::Auto`].
     pub auto: &'a Row,
     /// Of the other biases, in their order.
@@ -90,14 +92,14 @@ pub struct Standing<'a> {
     pub best_of_all: &'a Row,
 }
 
-/// The standing of [`Bias::Auto`] for each technique, in the order of `rows`; techniques without it or
+/// The rank of [`Bias::Auto`] for each technique, in the order of `rows`; techniques without it or
 /// without another bias, and rows that are invalid, are left out.
 #[must_use]
-pub fn standings(rows: &[Row]) -> Vec<Standing<'_>> {
+pub fn rank_biases(rows: &[Row]) -> Vec<Ranking<'_>> {
     let automatic = Bias::Auto.to_string();
     let valid = rows.iter().filter(|row| row.invalid.is_none());
     let (autos, others): (Vec<&Row>, Vec<&Row>) = valid.partition(|row| row.bias == automatic);
-    let mut standings = Vec::new();
+    let mut rankings = Vec::new();
     for auto in autos {
         let others: Vec<&Row> = others.iter().copied().filter(|o| o.technique == auto.technique).collect();
         let least = |most_acne: f64| {
@@ -106,10 +108,10 @@ pub fn standings(rows: &[Row]) -> Vec<Standing<'_>> {
         };
         if let Some(best_of_all) = least(1.0) {
             let best = least(TOLERATED_ACNE);
-            standings.push(Standing { auto, best, best_of_all, others });
+            rankings.push(Ranking { auto, best, best_of_all, others });
         }
     }
-    standings
+    rankings
 }
 
 /// Renders every technique with every bias and compares with rays. A technique without a kernel is
@@ -118,46 +120,56 @@ pub fn standings(rows: &[Row]) -> Vec<Standing<'_>> {
 /// # Errors
 /// No technique that the device can do, a light or camera without a view, a lost device.
 pub fn study(gpu: &Gpu, request: &Request<'_>, progress: &dyn Progress) -> Result<Study> {
-    let setting = request.setting;
     progress.step("upload");
-    let entries: Vec<(Box<dyn Technique>, Bias)> = request
-        .techniques
-        .iter()
-        .flat_map(|technique| request.settings.iter().map(move |bias| (technique.clone(), *bias)))
-        .collect();
-    let Setup { stage, lighting, contestants, mut left_out, views } = setting.set_up_biased(gpu, &entries)?;
+    let with_biases = |technique| request.settings.iter().map(move |bias| (Box::clone(technique), *bias));
+    let entries: Vec<Entry> = request.techniques.iter().flat_map(with_biases).collect();
+    let session = Session::with_biases(gpu, request.shot, &entries)?;
+    let mut left_out = session.left_out().to_vec();
     // Each bias is refused alike.
     left_out.dedup();
-    let (tracer, rays, light) = (setting.tracer()?, setting.rays()?, &setting.light);
-    progress.step("truth: gaps");
-    let gaps = gaps(&tracer, &rays, light, &setting.map_views(&views, setting.kernel)?);
-    let mut ideals: BTreeMap<u32, Visibility> = BTreeMap::new();
-    for technique in request.techniques {
-        let width = kernel(technique.as_ref());
-        if let Entry::Vacant(place) = ideals.entry(width) {
-            progress.step(&format!("truth: kernel of {width}"));
-            let (taps, maps) = (ideal_kernel(width)?, setting.map_views(&views, width)?);
-            place.insert(tracer.light_space_ideal(&rays, light, &taps, &maps, &|s| progress.share(s)));
-        }
-    }
-    let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    stage.encode_surfaces(&mut encoder, None);
-    gpu.finish(encoder)?;
+    let truths = Truths::trace(&session, request.techniques, progress)?;
     progress.step("render");
-    let mut rows = Vec::with_capacity(contestants.len());
-    for contestant in &contestants {
-        let (technique, bias) = &entries[contestant.entry];
-        let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        contestant.encode(&mut encoder, &stage, &lighting)?;
-        gpu.finish(encoder)?;
-        let test = lighting.read_visibility(gpu)?;
-        let ideal = ideals.get(&kernel(technique.as_ref())).context("an ideal for every kernel")?;
+    let mut rows = Vec::with_capacity(session.prepared().len());
+    for prepared in session.prepared() {
+        let (technique, bias) = &entries[prepared.entry];
+        let answer = session.draw(prepared)?;
+        let ideal = truths.ideals.get(&kernel(technique.as_ref())).context("an ideal for every kernel")?;
         let spec = technique::spec(technique.as_ref());
-        let row = row(spec, bias.to_string(), &test, ideal, &gaps).context("no pixel faces the light")?;
-        rows.push(Row { invalid: contestant.invalid(), ..row });
-        progress.share(rows.len() as f32 / contestants.len() as f32);
+        let row =
+            row(spec, bias.to_string(), &answer, ideal, &truths.gaps).context("no pixel faces the light")?;
+        rows.push(Row { invalid: prepared.invalid(), ..row });
+        progress.share(rows.len() as f32 / session.prepared().len() as f32);
     }
     Ok(Study { rows, left_out })
+}
+
+/// What is right, whatever the bias.
+struct Truths {
+    /// As [`gaps`] returns them.
+    gaps: Vec<f64>,
+    /// The light-space ideal by width of its kernel.
+    ideals: BTreeMap<u32, TruthImage>,
+}
+
+impl Truths {
+    fn trace(
+        session: &Session<'_>,
+        techniques: &[Box<dyn Technique>],
+        progress: &dyn Progress,
+    ) -> Result<Self> {
+        let (shot, views) = (session.shot(), session.views());
+        let traced = TracedShot::new(shot)?;
+        progress.step("truth: gaps");
+        let gaps = gaps(&traced, &shot.map_views(views, shot.kernel)?);
+        let mut ideals = BTreeMap::new();
+        for width in techniques.iter().map(|technique| kernel(technique.as_ref())) {
+            if let btree_map::Entry::Vacant(place) = ideals.entry(width) {
+                progress.step(&format!("truth: kernel of {width}"));
+                place.insert(traced.trace(Truth::LightSpace(width), views, progress)?);
+            }
+        }
+        Ok(Self { gaps, ideals })
+    }
 }
 
 /// Width of a technique's kernel.
@@ -169,14 +181,15 @@ fn kernel(technique: &dyn Technique) -> u32 {
 
 /// How far each receiver lies behind the first surface that its light meets, in texels; 0 where that is
 /// the receiver itself.
-fn gaps(tracer: &Tracer<'_>, rays: &CameraRays, light: &Light, maps: &MapViews) -> Vec<f64> {
+fn gaps(traced: &TracedShot<'_>, maps: &MapViews) -> Vec<f64> {
+    let TracedShot { shot, tracer, rays } = traced;
     let bounds = tracer.geometry().bounds();
     let far = bounds.map_or(0.0, |b| 4.0 * f64::from(b.radius()));
     let gap = |hit: &Hit| {
         if !hit.is_hit() {
             return 0.0;
         }
-        let (origin, direction) = match *light {
+        let (origin, direction) = match shot.light {
             Light::Directional { direction } => {
                 let direction = direction.as_dvec3().normalize();
                 (hit.position - far * direction, direction)
@@ -193,12 +206,12 @@ fn gaps(tracer: &Tracer<'_>, rays: &CameraRays, light: &Light, maps: &MapViews) 
     tracer.primary(rays).par_iter().map(gap).collect()
 }
 
-fn row(technique: String, bias: String, test: &Plane, ideal: &Visibility, gaps: &[f64]) -> Option<Row> {
+fn row(technique: String, bias: String, answer: &GrayImage, ideal: &TruthImage, gaps: &[f64]) -> Option<Row> {
     let mean = |sum: f64, count: u32| (count > 0).then(|| sum / f64::from(count));
     let (mut lit, mut acne, mut dark, mut all, mut squares) = (0, 0, 0.0, 0, 0.0);
-    let mut bins = [(0, 0); (FARTHEST_TEXELS / BIN_TEXELS) as usize];
+    let mut bins = [(0, 0); (MAX_GAP_TEXELS / BIN_TEXELS) as usize];
     for (((v, ideal), shadowable), gap) in
-        test.values.iter().zip(&ideal.values).zip(&ideal.shadowable).zip(gaps)
+        answer.values.iter().zip(&ideal.image.values).zip(&ideal.shadowable).zip(gaps)
     {
         if !shadowable {
             continue;
@@ -231,7 +244,7 @@ fn row(technique: String, bias: String, test: &Plane, ideal: &Visibility, gaps: 
 /// Integral of the share of lit pixels (lit, all) over the gap. Bins with too few pixels take the share
 /// of their neighbour.
 fn detached(bins: &[(u32, u32)]) -> Option<f64> {
-    let share = |(lit, all): &(u32, u32)| (*all >= FEWEST).then(|| f64::from(*lit) / f64::from(*all));
+    let share = |(lit, all): &(u32, u32)| (*all >= MIN_PIXELS).then(|| f64::from(*lit) / f64::from(*all));
     let mut last = bins.iter().find_map(share)?;
     Some(
         bins.iter()
@@ -282,7 +295,7 @@ mod tests {
             row("esm", "auto", 0.0, 0.1),
             row("vsm", "none", 0.0, 0.1),
         ];
-        let [hard, pcf] = standings(&rows).try_into().unwrap();
+        let [hard, pcf] = rank_biases(&rows).try_into().unwrap();
         assert_eq!((hard.auto, hard.best, hard.best_of_all), (&rows[1], Some(&rows[2]), &rows[0]));
         assert_eq!(hard.others, [&rows[0], &rows[2], &rows[3]]);
         assert_eq!((pcf.auto, pcf.best, pcf.best_of_all), (&rows[4], None, &rows[5]));

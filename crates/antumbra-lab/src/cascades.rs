@@ -2,10 +2,11 @@
 
 use crate::{
     gpu::Gpu,
-    plane::{PlaneError, Rgba8Image},
-    stage::Stage,
-    views::MapViews,
+    image::{ImageError, Rgba8Image},
+    map_views::MapViews,
+    readback,
 };
+use antumbra_render::GpuScene;
 use antumbra_scene::Camera;
 use anyhow::Result;
 
@@ -36,13 +37,13 @@ pub enum Pixel {
     Cascade(usize),
 }
 
-/// Which view shades each pixel of the surfaces that the stage holds. Waits.
+/// Which view shades each pixel of the surfaces that the scene holds. Waits.
 ///
 /// # Errors
 /// If the device is lost.
-pub fn pixels(gpu: &Gpu, stage: &Stage, camera: &Camera, maps: &MapViews) -> Result<Vec<Pixel>> {
+pub fn pixels(gpu: &Gpu, scene: &GpuScene, camera: &Camera, maps: &MapViews) -> Result<Vec<Pixel>> {
     let eye = camera.position.as_dvec3();
-    let positions = stage.surfaces().read_positions(gpu)?;
+    let positions = readback::positions(gpu, scene.surfaces())?;
     Ok(positions
         .into_iter()
         .map(|arm| match arm.map(|arm| maps.number(eye + arm.as_dvec3())) {
@@ -56,8 +57,8 @@ pub fn pixels(gpu: &Gpu, stage: &Stage, camera: &Camera, maps: &MapViews) -> Res
 /// A picture in the colours of the cascades that shade it.
 ///
 /// # Errors
-/// [`PlaneError::Length`] if the two do not have the same number of pixels.
-pub fn tint(picture: &Rgba8Image, pixels: &[Pixel]) -> Result<Rgba8Image, PlaneError> {
+/// [`ImageError::Length`] if the two do not have the same number of pixels.
+pub fn tint(picture: &Rgba8Image, pixels: &[Pixel]) -> Result<Rgba8Image, ImageError> {
     let mixed = picture.rgba.chunks_exact(4).zip(pixels).flat_map(|(own, pixel)| {
         let colour = match pixel {
             Pixel::Nothing => return [own[0], own[1], own[2], 255],

@@ -2,8 +2,8 @@
 
 use crate::{
     axis::Axis,
+    image::{ImageError, Rgba8Image},
     paint::{self, Anchor, Colour, INK, Letters, WHITE},
-    plane::{PlaneError, Rgba8Image},
     report::escape,
 };
 use std::fmt::Write;
@@ -79,8 +79,8 @@ pub fn svg(panels: &[Panel]) -> String {
 /// The same as an image, two pixels per unit of the SVG.
 ///
 /// # Errors
-/// [`PlaneError::Png`].
-pub fn png(panels: &[Panel]) -> Result<Vec<u8>, PlaneError> {
+/// [`ImageError::Png`].
+pub fn png(panels: &[Panel]) -> Result<Vec<u8>, ImageError> {
     let [width, height] = size(panels).map(|units| (SCALE * units).ceil() as u32);
     let mut surface = paint::blank(width.max(1), height.max(1), WHITE);
     draw(&mut surface, panels);

@@ -1,8 +1,13 @@
 //! Kinds of pixels that a technique tells apart, counted and coloured
 //! [Annen et al. 2008, figure 10 and table 3].
 
-use crate::plane::{Plane, PlaneError, Rgba8Image};
+use crate::{
+    image::{GrayImage, ImageError, Rgba8Image},
+    prepared::Prepared,
+    session::Session,
+};
 use antumbra::technique::Class;
+use anyhow::Result;
 use serde::{Deserialize, Serialize};
 
 /// How many pixels a technique takes for one of its kinds.
@@ -16,10 +21,31 @@ pub struct ClassShare {
     pub share: f64,
 }
 
+/// What a technique tells apart in one picture.
+#[derive(Debug, Clone)]
+pub struct Classes {
+    /// Visibility with the pixels of each class in its colour.
+    pub picture: Rgba8Image,
+    /// The shares of the classes.
+    pub shares: Vec<ClassShare>,
+}
+
+impl Classes {
+    /// The classes of a technique whose maps are drawn and that answers `visibility`; `None` if it has none.
+    ///
+    /// # Errors
+    /// If the device is lost.
+    pub fn read(session: &Session<'_>, prepared: &Prepared, visibility: &GrayImage) -> Result<Option<Self>> {
+        let Some(numbers) = session.classes(prepared)? else { return Ok(None) };
+        let known = prepared.shadows.technique().classes();
+        Ok(Some(Self { picture: picture(visibility, &numbers, known)?, shares: shares(&numbers, known) }))
+    }
+}
+
 /// Shares of the pixels that see geometry. `numbers` has, for each pixel, 0 for none of the classes,
 /// 1 + the index of its class, or a negative number where there is no geometry.
 #[must_use]
-pub fn shares(numbers: &Plane, classes: &[Class]) -> Vec<ClassShare> {
+pub fn shares(numbers: &GrayImage, classes: &[Class]) -> Vec<ClassShare> {
     let geometry = numbers.values.iter().filter(|n| **n >= 0.0).count().max(1);
     let count = |class: usize| numbers.values.iter().filter(|n| **n == (class + 1) as f32).count();
     classes
@@ -36,9 +62,13 @@ pub fn shares(numbers: &Plane, classes: &[Class]) -> Vec<ClassShare> {
 /// Visibility in linear grey, pixels of a class in its colour: darker in shadow, but never black.
 ///
 /// # Errors
-/// [`PlaneError::Length`] if the two do not have the same number of pixels.
-pub fn picture(visibility: &Plane, numbers: &Plane, classes: &[Class]) -> Result<Rgba8Image, PlaneError> {
-    let Plane { width, height, .. } = *visibility;
+/// [`ImageError::Length`] if the two do not have the same number of pixels.
+pub fn picture(
+    visibility: &GrayImage,
+    numbers: &GrayImage,
+    classes: &[Class],
+) -> Result<Rgba8Image, ImageError> {
+    let GrayImage { width, height, .. } = *visibility;
     let pixels = visibility.values.iter().zip(&numbers.values).flat_map(|(v, number)| {
         let v = v.clamp(0.0, 1.0);
         let class = (*number >= 1.0).then(|| classes.get(*number as usize - 1)).flatten();
@@ -60,20 +90,20 @@ mod tests {
 
     #[test]
     fn shares_are_of_the_pixels_that_see_geometry() {
-        let numbers = Plane::new(3, 2, vec![-1.0, 0.0, 1.0, 1.0, 2.0, -1.0]).unwrap();
+        let numbers = GrayImage::new(3, 2, vec![-1.0, 0.0, 1.0, 1.0, 2.0, -1.0]).unwrap();
         let shares = shares(&numbers, &CLASSES);
         assert_eq!(shares.iter().map(|s| s.share).collect::<Vec<_>>(), [0.5, 0.25]);
         assert_eq!((shares[0].name.as_str(), shares[1].colour), ("failed", [0, 0, 200]));
-        assert_eq!(super::shares(&Plane::filled(2, 2, -1.0), &CLASSES)[0].share, 0.0);
+        assert_eq!(super::shares(&GrayImage::filled(2, 2, -1.0), &CLASSES)[0].share, 0.0);
     }
 
     #[test]
     fn pixels_of_a_class_have_its_colour_and_others_their_visibility() {
-        let visibility = Plane::new(4, 1, vec![1.0, 0.0, 0.0, 1.0]).unwrap();
-        let numbers = Plane::new(4, 1, vec![1.0, 2.0, 0.0, -1.0]).unwrap();
+        let visibility = GrayImage::new(4, 1, vec![1.0, 0.0, 0.0, 1.0]).unwrap();
+        let numbers = GrayImage::new(4, 1, vec![1.0, 2.0, 0.0, -1.0]).unwrap();
         let image = picture(&visibility, &numbers, &CLASSES).unwrap();
         let pixels: Vec<&[u8]> = image.rgba.chunks_exact(4).map(|p| &p[..3]).collect();
         assert_eq!(pixels, [[200, 0, 0], [0, 0, 80], [0, 0, 0], [255, 255, 255]]);
-        assert!(picture(&visibility, &Plane::filled(2, 1, 0.0), &CLASSES).is_err());
+        assert!(picture(&visibility, &GrayImage::filled(2, 1, 0.0), &CLASSES).is_err());
     }
 }

@@ -23,23 +23,20 @@
 //! take many rays, and are asked of every [`Request::stride`]-th pixel across and down only.
 
 use crate::{
-    compare::{self, Contestant, Entered, Progress, adapter_facts},
+    facts,
     gpu::Gpu,
-    lighting::Lighting,
     motion::{Frame, Path},
-    results::Program,
-    setting::Setting,
-    stage::Stage,
+    progress::Progress,
+    shot::Shot,
 };
-use antumbra::{ShadowMap, Technique, technique};
+use antumbra::Technique;
+use antumbra_truth::Tracer;
 use anyhow::{Context, Result, bail};
-use std::{
-    collections::BTreeMap,
-    time::{Duration, Instant},
-};
+use std::{collections::BTreeMap, time::Instant};
 
 mod page;
 mod pictures;
+mod recording;
 mod results;
 mod score;
 mod truths;
@@ -49,22 +46,21 @@ pub use pictures::{FILM_FILE, ROW_FILE, STRIP_FILE};
 pub use results::{Measured, Promise, Results, SCHEMA, TechniqueFlicker};
 pub use score::{Tally, change_of_error};
 
-use pictures::Pictures;
-use score::Series;
-use truths::{Moment, Right, Truths};
+use recording::Recording;
+use truths::Truths;
 
 /// What to measure.
 #[derive(Debug, Clone)]
 pub struct Request {
     /// The scene, camera and light of the first frame, the maps.
-    pub setting: Setting,
+    pub shot: Shot,
     /// How camera and light move.
     pub path: Path,
     /// Number of frames of the whole path.
     pub frames: u32,
     /// Frames that are measured, from the first; 2 or more. Few steps of a long path are as small as all.
     pub until: u32,
-    /// The entrants, in order.
+    /// The techniques, in order.
     pub techniques: Vec<Box<dyn Technique>>,
     /// Pixels from one that is asked for the ideals to the next, across and down.
     pub stride: u32,
@@ -89,111 +85,67 @@ pub struct Outcome {
 /// Numbers out of range, no technique that the device can do, a camera that sees nothing, a lost device.
 pub fn measure(gpu: &Gpu, request: &Request, progress: &dyn Progress) -> Result<Outcome> {
     let start = Instant::now();
-    let setting = &request.setting;
-    let mut frames = request.path.frames(&setting.camera, &setting.light, request.frames)?;
-    if !(2..=request.frames).contains(&request.until) {
-        bail!("{} measured frames: allowed are 2 to the {} of the path", request.until, request.frames);
-    }
-    frames.truncate(request.until as usize);
-    if request.techniques.is_empty() {
-        bail!("no technique to measure");
-    }
+    let frames = frames(request)?;
     progress.step("upload");
-    let mut stage = setting.stage(gpu)?;
-    let lighting = Lighting::new(gpu, &stage);
-    let entries = setting.entries(&request.techniques);
-    let Entered { mut contestants, left_out } = setting.contestants(gpu, &stage, &entries)?;
-    let mut invalid: Vec<Option<String>> = vec![None; contestants.len()];
-    let tracer = setting.tracer()?;
-    let truths = Truths::new(&tracer, request)?;
-    let mut series = Series::new(contestants.len(), setting.resolution);
-    let mut pictures: Option<Pictures> = None;
-    let mut before: Option<(Frame, Moment)> = None;
-    let mut texels: Vec<Vec<f32>> = Vec::new();
-    let mut tracing = Duration::ZERO;
+    let tracer = Tracer::new(&request.shot.geometry)?;
+    let mut recording = Recording::new(gpu, request, Truths::new(&tracer, request)?)?;
     progress.step(&format!("frames of the path: {}", frames.len()));
     for (number, frame) in frames.iter().enumerate() {
-        let at = || format!("frame {number} of the path");
-        let maps: Vec<&ShadowMap> = contestants.iter().map(|c| &c.shadows).collect();
-        let moved = Setting { camera: frame.camera, light: frame.light, ..setting.clone() };
-        let camera = stage.camera_matrix_of(&moved.geometry, &moved.camera, &moved.light);
-        let views = moved.views(camera, &maps).with_context(at)?;
-        let planes = moved.map_views(&views, setting.kernel)?;
-        compare::aim(gpu, &stage, &mut contestants, &views)?;
-        texels.push(views.iter().map(|view| view.texel_world).collect());
-        for (contestant, invalid) in contestants.iter_mut().zip(&mut invalid) {
-            let drawn = contestant.draw_maps(gpu, &stage);
-            drawn.with_context(|| technique::spec(contestant.shadows.technique()))?;
-            *invalid = invalid.take().or_else(|| contestant.invalid());
-        }
-        let camera_rests = before.as_ref().is_some_and(|(f, _)| f.camera == frame.camera);
-        // The points of the last frame under this frame's light: its surfaces are still there.
-        let on_points = match &before {
-            Some(_) if !camera_rests => Some(answers(gpu, &stage, &lighting, &contestants)?),
-            _ => None,
-        };
-        stage.look(gpu, &setting.geometry, &frame.camera, &frame.light);
-        let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        stage.encode_surfaces(&mut encoder, None);
-        gpu.finish(encoder)?;
-        let seen = answers(gpu, &stage, &lighting, &contestants)?;
-        let drawn = stage.surfaces().read_positions(gpu)?;
-        let clock = Instant::now();
-        let right = truths.right(frame, &planes, &drawn).with_context(at)?;
-        tracing += clock.elapsed();
-        let now = Moment { right, answers: seen };
-        let pictures =
-            pictures.get_or_insert_with(|| Pictures::new(request, &now, truths.size(), &contestants));
-        pictures.add(&now);
-        if let Some((last, was)) = &before {
-            let points: Right = match on_points {
-                None => now.right.clone(),
-                Some(_) if last.light == frame.light => was.right.clone(),
-                Some(_) => {
-                    let clock = Instant::now();
-                    let right = truths.right_at(&was.right, frame, &planes);
-                    tracing += clock.elapsed();
-                    right
-                }
-            };
-            let answers = on_points.as_ref().unwrap_or(&now.answers);
-            series.add(&truths, was, &now, &points, answers);
-        }
-        before = Some((*frame, now));
+        recording.add(frame).with_context(|| format!("frame {number} of the path"))?;
         progress.share((number + 1) as f32 / frames.len() as f32);
     }
     progress.step("pictures");
-    let Some(pictures) = pictures else { bail!("no frame was drawn") };
-    let mut images = BTreeMap::new();
-    let (mut techniques, heat_maps) = series.results(request, &contestants, &mut images)?;
-    for (technique, invalid) in techniques.iter_mut().zip(invalid) {
-        technique.invalid = invalid;
+    outcome(gpu, request, &recording, start)
+}
+
+/// The frames that are measured.
+fn frames(request: &Request) -> Result<Vec<Frame>> {
+    let Request { shot, frames: count, until, .. } = request;
+    let mut frames = request.path.frames(&shot.camera, &shot.light, *count)?;
+    if !(2..=*count).contains(until) {
+        bail!("{until} measured frames: allowed are 2 to the {count} of the path");
     }
-    pictures.files(&mut images)?;
+    frames.truncate(*until as usize);
+    if request.techniques.is_empty() {
+        bail!("no technique to measure");
+    }
+    Ok(frames)
+}
+
+/// Numbers and pictures of all frames.
+fn outcome(gpu: &Gpu, request: &Request, recording: &Recording<'_>, start: Instant) -> Result<Outcome> {
+    let Recording { session, series, invalid, .. } = recording;
+    let shot = &request.shot;
+    let mut images = BTreeMap::new();
+    let (mut techniques, heat_maps) = series.results(request, session.prepared(), &mut images)?;
+    for (technique, invalid) in techniques.iter_mut().zip(invalid) {
+        technique.invalid.clone_from(invalid);
+    }
+    recording.pictures.as_ref().context("no frame was drawn")?.files(&mut images)?;
     let results = Results {
         schema: SCHEMA.into(),
-        program: Program { name: "antumbra".into(), version: env!("CARGO_PKG_VERSION").into() },
+        program: facts::program(),
         command: request.command.clone(),
-        scene: setting.name.clone(),
-        triangles: setting.geometry.triangle_count() as u64,
+        scene: shot.name.clone(),
+        triangles: shot.geometry.triangle_count() as u64,
         path: request.path.name().into(),
         motion: request.path.description().into(),
         frames: request.until,
-        resolution: setting.resolution,
-        map_size: setting.map_size,
-        kernel_texels: setting.kernel,
-        cascades: setting.most_views(),
-        bias: setting.bias.to_string(),
+        resolution: shot.resolution,
+        map_size: shot.map_size,
+        kernel_texels: shot.kernel,
+        cascades: shot.max_views(),
+        bias: shot.bias.to_string(),
         stride: request.stride,
-        adapter: adapter_facts(gpu),
+        adapter: facts::adapter(gpu),
         pixels: series.pixels(),
         agreement: series.agreement(),
         ideal_against_hard: series.ideal_against_hard(),
-        texel_changes: texel_changes(&texels),
+        texel_changes: recording.texel_changes(),
         techniques,
-        left_out,
+        left_out: session.left_out().to_vec(),
         heat_maps,
-        seconds_tracing: tracing.as_secs_f64(),
+        seconds_tracing: recording.tracing.as_secs_f64(),
         seconds_total: start.elapsed().as_secs_f64(),
         files: Vec::new(),
     };
@@ -201,30 +153,4 @@ pub fn measure(gpu: &Gpu, request: &Request, progress: &dyn Progress) -> Result<
         bail!("no pixel sees geometry that faces the light in two frames: nothing can flicker");
     }
     Ok(Outcome { results, images })
-}
-
-/// How often a view's texels had another size than in the frame before; another number of views counts once.
-fn texel_changes(texels: &[Vec<f32>]) -> u32 {
-    let changes = |pair: &[Vec<f32>]| match pair {
-        [was, now] if was.len() == now.len() => was.iter().zip(now).filter(|(a, b)| a != b).count(),
-        _ => 1,
-    };
-    texels.windows(2).map(changes).sum::<usize>() as u32
-}
-
-/// What each map answers for the surfaces that are drawn.
-fn answers(
-    gpu: &Gpu,
-    stage: &Stage,
-    lighting: &Lighting,
-    contestants: &[Contestant],
-) -> Result<Vec<Vec<f32>>> {
-    let ask = |contestant: &Contestant| {
-        let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        let shadows = Some(&contestant.shadows);
-        lighting.encode_lookup(&mut encoder, stage, &contestant.lookup, shadows, None);
-        gpu.finish(encoder)?;
-        Ok(lighting.read_visibility(gpu)?.values)
-    };
-    contestants.iter().map(ask).collect()
 }

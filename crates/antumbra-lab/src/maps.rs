@@ -3,13 +3,14 @@
 
 use crate::{
     gpu::Gpu,
+    image::{GrayImage, Rgba8Image, diverging},
     paint::{self, Anchor, Colour, INK, Letters},
-    plane::{Plane, Rgba8Image, diverging},
-    stage::{Stage, ViewMatrices},
+    session::Session,
     texels,
 };
 use antumbra::{DEPTH_FORMAT, ShadowMap, View};
-use anyhow::{Result, bail};
+use antumbra_render::{GpuScene, ViewMatrices};
+use anyhow::{Context, Result, bail};
 use serde::Serialize;
 
 /// How numbers became colours.
@@ -41,7 +42,7 @@ impl Picture {
     /// A picture of `plane`. Where numbers are stored with their zero at `zero`, that is taken off
     /// and what is left of the range to 1 counts as one.
     #[must_use]
-    pub fn new(name: String, plane: &Plane, zero: f32) -> Self {
+    pub fn new(name: String, plane: &GrayImage, zero: f32) -> Self {
         let numbers = || plane.values.iter().map(|v| (v - zero) / (1.0 - zero));
         let finite = || numbers().filter(|v| v.is_finite());
         let range = [finite().fold(f32::INFINITY, f32::min), finite().fold(f32::NEG_INFINITY, f32::max)];
@@ -75,18 +76,37 @@ impl Picture {
     }
 }
 
-/// Linear depth of the casters as a view sees them, whatever the technique keeps, as a picture called `name`.
+/// Hands pictures of a session's first technique to `take`, one after the other (large maps would not fit into
+/// memory all at once): linear depth of the casters in each view, then every channel of every layer of every map
+/// at mip level `level`.
 ///
 /// # Errors
-/// A lost device, or no room for the texture.
-pub fn depth(
+/// No technique, a level that a map lacks, a lost device, what `take` returns.
+pub fn pictures(
     gpu: &Gpu,
-    stage: &Stage,
+    session: &Session<'_>,
+    level: u32,
+    take: &mut dyn FnMut(Picture) -> Result<()>,
+) -> Result<()> {
+    let first = session.prepared().first().context("no technique was named")?;
+    session.draw(first)?;
+    let (views, size) = (session.views(), session.shot().map_size);
+    for (number, view) in views.iter().enumerate() {
+        let name = cascade_prefix(views, number) + "depth";
+        take(depth(gpu, session.scene(), view, [size; 2], name)?)?;
+    }
+    channels(gpu, &first.shadows, level, take)
+}
+
+/// Linear depth of the casters as a view sees them, whatever the technique keeps, as a picture called `name`.
+fn depth(
+    gpu: &Gpu,
+    scene: &GpuScene,
     view: &View,
     [width, height]: [u32; 2],
-    name: &str,
+    name: String,
 ) -> Result<Picture> {
-    let matrices = ViewMatrices::new(gpu, stage, &[*view]);
+    let matrices = ViewMatrices::new(gpu, scene, &[*view]);
     let target = gpu.target("casters' depth", [width, height], DEPTH_FORMAT);
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     {
@@ -103,7 +123,7 @@ pub fn depth(
             }),
             ..Default::default()
         });
-        stage.draw_depth(&matrices, 0, &mut pass);
+        scene.draw_depth(&matrices, 0, &mut pass);
     }
     gpu.finish(encoder)?;
     let mut planes = texels::planes(DEPTH_FORMAT, [width, height], &gpu.read(&target)?)?;
@@ -112,23 +132,18 @@ pub fn depth(
         plane.values.iter_mut().for_each(|z| *z = k * *z / (1.0 - (1.0 - k) * *z));
     }
     match planes.first() {
-        Some(plane) => Ok(Picture::new(name.into(), plane, 0.0)),
+        Some(plane) => Ok(Picture::new(name, plane, 0.0)),
         None => bail!("depth has no channel"),
     }
 }
 
 /// What names of pictures of one view begin with, where there are several.
-#[must_use]
-pub fn cascade_prefix(views: &[View], number: usize) -> String {
+fn cascade_prefix(views: &[View], number: usize) -> String {
     if views.len() > 1 { format!("cascade-{number}-") } else { String::new() }
 }
 
-/// Hands every channel of every layer of every map to `take`, at mip level `level`, one after the
-/// other (large maps would not fit into memory all at once).
-///
-/// # Errors
-/// A level that a map lacks, a lost device, what `take` returns.
-pub fn pictures(
+/// Hands every channel of every layer of every map to `take`, at mip level `level`.
+fn channels(
     gpu: &Gpu,
     shadows: &ShadowMap,
     level: u32,
@@ -255,7 +270,7 @@ mod tests {
     use super::*;
 
     fn picture(values: [f32; 4], zero: f32) -> Picture {
-        Picture::new("x".into(), &Plane::new(4, 1, values.to_vec()).unwrap(), zero)
+        Picture::new("x".into(), &GrayImage::new(4, 1, values.to_vec()).unwrap(), zero)
     }
 
     fn pixel(picture: &Picture, i: usize) -> [u8; 3] {

@@ -4,7 +4,7 @@
 //! are dark or empty whatever the shadow map says, and would flatter every technique. Visibility is
 //! linear, 1 lit and 0 shadowed.
 
-use crate::plane::Plane;
+use crate::image::GrayImage;
 use serde::{Deserialize, Serialize};
 
 mod convolve;
@@ -25,7 +25,7 @@ pub const DEEP_PIXELS: u32 = 4;
 /// Fewest pixels over which leak and over-darkening are told. A mean of n values between 0 and 1 that are
 /// as different as can be is known to ½/√n: to 2.5 % with 400 pixels, a square of 20 × 20. Over fewer, one
 /// small spot decides.
-pub const FEWEST_DEEP: u64 = 400;
+pub const MIN_DEEP_PIXELS: u64 = 400;
 
 /// Tolerance within which a truth counts as fully lit (1) or fully shadowed (0), and by which an
 /// answer may leave 0..1: rounding of sums of kernel weights.
@@ -72,12 +72,12 @@ pub struct Score {
 }
 
 impl Score {
-    /// The same without leak and over-darkening where they are means over fewer than [`FEWEST_DEEP`] pixels.
+    /// The same without leak and over-darkening where they are means over fewer than [`MIN_DEEP_PIXELS`] pixels.
     #[must_use]
     pub fn heard(self) -> Self {
         Self {
-            leak: self.leak.filter(|_| self.deep_shadow_pixels >= FEWEST_DEEP),
-            over_darkening: self.over_darkening.filter(|_| self.deep_lit_pixels >= FEWEST_DEEP),
+            leak: self.leak.filter(|_| self.deep_shadow_pixels >= MIN_DEEP_PIXELS),
+            over_darkening: self.over_darkening.filter(|_| self.deep_lit_pixels >= MIN_DEEP_PIXELS),
             ..self
         }
     }
@@ -124,7 +124,7 @@ pub enum ScoreError {
 /// # Errors
 /// [`ScoreError::Size`] for different sizes; [`ScoreError::Value`] naming the first NaN anywhere in
 /// the test, or the first shadowable pixel outside 0..1; [`ScoreError::NothingShadowable`].
-pub fn score(test: &Plane, truth: &Plane, shadowable: &[bool]) -> Result<Score, ScoreError> {
+pub fn score(test: &GrayImage, truth: &GrayImage, shadowable: &[bool]) -> Result<Score, ScoreError> {
     check(test, truth, shadowable)?;
     let class = Classes::of(truth, shadowable);
     let pairs = || {
@@ -165,8 +165,8 @@ pub fn score(test: &Plane, truth: &Plane, shadowable: &[bool]) -> Result<Score, 
 ///
 /// # Errors
 /// As [`score`].
-pub fn no_shadow_baseline(truth: &Plane, shadowable: &[bool]) -> Result<Score, ScoreError> {
-    score(&Plane::filled(truth.width, truth.height, 1.0), truth, shadowable)
+pub fn no_shadow_baseline(truth: &GrayImage, shadowable: &[bool]) -> Result<Score, ScoreError> {
+    score(&GrayImage::filled(truth.width, truth.height, 1.0), truth, shadowable)
 }
 
 /// Pixels by what the truth says of them and of their surroundings.
@@ -182,7 +182,7 @@ struct Classes {
 }
 
 impl Classes {
-    fn of(truth: &Plane, shadowable: &[bool]) -> Self {
+    fn of(truth: &GrayImage, shadowable: &[bool]) -> Self {
         let select = |keep: &dyn Fn(f32) -> bool| -> Vec<bool> {
             truth.values.iter().zip(shadowable).map(|(&t, &s)| s && keep(t)).collect()
         };
@@ -208,15 +208,15 @@ fn count(mask: &[bool]) -> u64 {
     mask.iter().filter(|&&m| m).count() as u64
 }
 
-fn check(test: &Plane, truth: &Plane, shadowable: &[bool]) -> Result<(), ScoreError> {
-    let size = |plane: &Plane| [plane.width, plane.height];
-    let whole = |plane: &Plane| plane.values.len() == plane.width as usize * plane.height as usize;
+fn check(test: &GrayImage, truth: &GrayImage, shadowable: &[bool]) -> Result<(), ScoreError> {
+    let size = |plane: &GrayImage| [plane.width, plane.height];
+    let whole = |plane: &GrayImage| plane.values.len() == plane.width as usize * plane.height as usize;
     let one_size = size(test) == size(truth) && shadowable.len() == truth.values.len();
     if !one_size || !whole(test) || !whole(truth) {
         return Err(ScoreError::Size { test: size(test), truth: size(truth), mask: shadowable.len() });
     }
     let allowed = -ROUNDING..=1.0 + ROUNDING;
-    let value_error = |image, plane: &Plane, index: usize| {
+    let value_error = |image, plane: &GrayImage, index: usize| {
         let (x, y) = (index as u32 % plane.width, index as u32 / plane.width);
         Err(ScoreError::Value { image, x, y, value: plane.values[index] })
     };

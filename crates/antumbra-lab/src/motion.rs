@@ -30,7 +30,7 @@ pub struct Frame {
 
 /// Why a path has no frames.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error("{count} frames show no motion that can be measured; allowed are 2 to {}", Path::MOST_FRAMES)]
+#[error("{count} frames show no motion that can be measured; allowed are 2 to {}", Path::MAX_FRAMES)]
 pub struct BadFrameCount {
     /// What was asked for.
     pub count: u32,
@@ -45,7 +45,7 @@ impl Path {
     /// Every path.
     pub const ALL: [Self; 4] = [Self::Camera, Self::Light, Self::Both, Self::Recede];
     /// Longest path.
-    pub const MOST_FRAMES: u32 = 10_000;
+    pub const MAX_FRAMES: u32 = 10_000;
 
     /// `camera`, `light`, `both` or `recede`.
     #[must_use]
@@ -75,9 +75,9 @@ impl Path {
     /// Computed in f64 and rounded once.
     ///
     /// # Errors
-    /// [`BadFrameCount`] unless 2 ≤ `count` ≤ [`MOST_FRAMES`](Self::MOST_FRAMES).
+    /// [`BadFrameCount`] unless 2 ≤ `count` ≤ [`MAX_FRAMES`](Self::MAX_FRAMES).
     pub fn frames(self, camera: &Camera, light: &Light, count: u32) -> Result<Vec<Frame>, BadFrameCount> {
-        if !(2..=Self::MOST_FRAMES).contains(&count) {
+        if !(2..=Self::MAX_FRAMES).contains(&count) {
             return Err(BadFrameCount { count });
         }
         let share = |i: u32| f64::from(i) / f64::from(count - 1);
@@ -228,7 +228,7 @@ mod tests {
     #[test]
     fn one_frame_is_no_motion() {
         let sun = Light::Directional { direction: Vec3::NEG_Y };
-        for count in [0, 1, Path::MOST_FRAMES + 1] {
+        for count in [0, 1, Path::MAX_FRAMES + 1] {
             let error = Path::Both.frames(&camera(), &sun, count).unwrap_err().to_string();
             assert!(error.contains(&count.to_string()) && error.contains("2 to 10000"), "{error}");
         }

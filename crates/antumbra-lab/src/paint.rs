@@ -1,6 +1,6 @@
 //! Drawing into pictures: rectangles, other pictures, smooth lines, small letters.
 
-use crate::plane::Rgba8Image;
+use crate::image::Rgba8Image;
 use embedded_graphics::{
     Pixel,
     draw_target::DrawTarget,

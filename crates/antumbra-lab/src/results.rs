@@ -125,12 +125,12 @@ pub struct TruthFacts {
 
 impl TruthFacts {
     /// Share of pixels that may match without any shadow before a view says nothing about techniques.
-    pub const MOST_WITHOUT_SHADOW: f64 = 0.97;
+    pub const MAX_WITHOUT_SHADOW: f64 = 0.97;
 
     /// Whether the view shows so little shadow that scores rank nothing.
     #[must_use]
     pub fn shows_no_shadow(&self) -> bool {
-        self.no_shadow.pixel_match > Self::MOST_WITHOUT_SHADOW
+        self.no_shadow.pixel_match > Self::MAX_WITHOUT_SHADOW
     }
 }
 

@@ -1,103 +1,28 @@
-//! The lab's WGSL, put together from its files.
+//! The lab's own WGSL: what asks a map about points, and a caster that has one depth.
 
-macro_rules! wgsl {
-    ($($file:literal),+) => { concat!($(include_str!($file)),+) };
-}
-
-/// What the camera sees.
-pub(crate) const STAGE: &str = wgsl!("stage/frame.wgsl", "stage/stage.wgsl");
-/// Casters that leave depth, before [`antumbra::CASTER_WGSL`].
-pub(crate) const CASTER: &str = wgsl!("stage/frame.wgsl", "stage/caster.wgsl");
-/// Holes of casters that are triangles.
-pub(crate) const CUTOUT: &str = wgsl!("stage/frame.wgsl", "stage/cutout.wgsl");
-/// `shadow_covers`, behind what asks a map about surfaces, with its bindings in group 2.
-pub(crate) const COVERS: &str = wgsl!("stage/covers.wgsl");
-/// Visibility of every surface, before a map's `shadow_visibility`.
-pub(crate) const VISIBILITY: &str =
-    wgsl!("stage/frame.wgsl", "lighting/lookup.wgsl", "lighting/visibility.wgsl");
-/// Class of every surface, before a map's `shadow_class`.
-pub(crate) const CLASS: &str = wgsl!("stage/frame.wgsl", "lighting/lookup.wgsl", "lighting/class.wgsl");
-/// Visibility where everything is lit.
-pub(crate) const UNSHADOWED: &str =
-    wgsl!("stage/frame.wgsl", "lighting/lookup.wgsl", "lighting/visibility.wgsl", "lighting/unshadowed.wgsl");
-/// A sample's share of the light of every surface.
-pub(crate) const LIGHT: &str = wgsl!("stage/frame.wgsl", "lighting/light.wgsl");
-/// Visibility shaded.
-pub(crate) const PICTURE: &str = wgsl!("lighting/picture.wgsl");
 /// A caster parallel to the map.
-pub(crate) const FLAT_CASTER: &str = wgsl!("curve/caster.wgsl");
+pub(crate) const FLAT_CASTER: &str = include_str!("curve/caster.wgsl");
 /// Visibility of points, before a map's `shadow_visibility`.
-pub(crate) const CURVE: &str = wgsl!("curve/ask.wgsl");
+pub(crate) const CURVE: &str = include_str!("curve/ask.wgsl");
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use antumbra::{Capabilities, Options, Shader, ShaderText, Size, technique};
+    use antumbra::{Capabilities, Options, ShaderText, Size, technique};
     use antumbra_testing::shaders::{Needs, Shaders};
-    use std::path::{Path, PathBuf};
 
-    /// All `.wgsl` files below a folder.
-    fn files(folder: &Path) -> Vec<PathBuf> {
-        let entries = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
-        let of = |path: PathBuf| if path.is_dir() { files(&path) } else { vec![path] };
-        entries.flat_map(of).filter(|path| path.extension().is_some_and(|e| e == "wgsl")).collect()
-    }
-
-    /// Every one with every technique's receiver, or every caster with holes: with all settings the
-    /// library's own tests have them.
+    /// Both files, the question with every technique's receiver.
     #[test]
     fn every_shader_is_portable() {
         let mut shaders = Shaders::default();
-        let caster = [CASTER, antumbra::CASTER_WGSL].concat();
-        let alone =
-            [("stage", STAGE), ("caster", caster.as_str()), ("unshadowed", UNSHADOWED), ("light", LIGHT)];
-        for (name, text) in alone.into_iter().chain([("picture", PICTURE), ("flat caster", FLAT_CASTER)]) {
-            shaders.add(name, text.into(), &[], Needs::LEAST);
-        }
+        shaders.add("flat caster", FLAT_CASTER.into(), &[], Needs::LEAST);
         let device = Capabilities { features: wgpu::Features::empty(), limits: wgpu::Limits::default() };
-        let plain = Options::from(Size::square(64)).views(4);
-        let asking = plain.clone().cutouts(true);
-        let all = technique::all();
-        for (technique, options) in all.iter().flat_map(|t| [(t, &plain), (t, &asking)]) {
+        let options = Options::from(Size::square(64));
+        for technique in technique::all() {
             let name = technique.page().name;
-            let covers = if options.cutouts && technique.caster().keeps_ids() { COVERS } else { "" };
-            let receiver = |group| ShaderText::receiver(technique.as_ref(), &device, options, group).text();
-            let class = (!technique.classes().is_empty()).then_some(("class", CLASS, 1));
-            for (what, text, group) in
-                [("visibility", VISIBILITY, 1), ("curve", CURVE, 0)].into_iter().chain(class)
-            {
-                let text = format!("{text}{covers}\n{}", receiver(group));
-                shaders.add(&format!("{name}: {what}"), text, &[], Needs::LEAST);
-            }
-            let casters = Shader::all(technique.as_ref(), &device, options, Some(CUTOUT)).unwrap();
-            for shader in casters.into_iter().filter(|shader| shader.pass == "cut-out") {
-                shaders.add(&format!("{name}: cut-out"), shader.text, &shader.targets, Needs::LEAST);
-            }
+            let receiver = ShaderText::receiver(technique.as_ref(), &device, &options, 0).text();
+            shaders.add(&format!("{name}: curve"), format!("{CURVE}\n{receiver}"), &[], Needs::LEAST);
         }
         shaders.check("lab").unwrap();
-    }
-
-    #[test]
-    fn every_file_is_put_somewhere() {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-        let found = files(&folder);
-        assert!(found.len() > 5, "{found:?}");
-        for path in found {
-            let text = std::fs::read_to_string(&path).unwrap();
-            let all = [
-                STAGE,
-                CASTER,
-                CUTOUT,
-                VISIBILITY,
-                CLASS,
-                UNSHADOWED,
-                LIGHT,
-                PICTURE,
-                FLAT_CASTER,
-                CURVE,
-                COVERS,
-            ];
-            assert!(all.iter().any(|all| all.contains(&text)), "{} is in no shader", path.display());
-        }
     }
 }

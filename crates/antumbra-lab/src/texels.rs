@@ -1,6 +1,6 @@
 //! What the bytes of a texture mean.
 
-use crate::plane::Plane;
+use crate::image::GrayImage;
 use anyhow::{Context, Result, bail};
 use wgpu::TextureFormat;
 
@@ -63,7 +63,11 @@ fn layout(format: TextureFormat) -> Option<(Component, usize)> {
 ///
 /// # Errors
 /// A format that no shadow map keeps, or too few bytes.
-pub(crate) fn planes(format: TextureFormat, [width, height]: [u32; 2], bytes: &[u8]) -> Result<Vec<Plane>> {
+pub(crate) fn planes(
+    format: TextureFormat,
+    [width, height]: [u32; 2],
+    bytes: &[u8],
+) -> Result<Vec<GrayImage>> {
     let (component, channels) = layout(format).with_context(|| format!("{format:?} cannot be shown"))?;
     let step = component.bytes();
     if bytes.len() != width as usize * height as usize * channels * step {
@@ -72,7 +76,7 @@ pub(crate) fn planes(format: TextureFormat, [width, height]: [u32; 2], bytes: &[
     let plane = |channel: usize| {
         let texels = bytes.chunks_exact(channels * step);
         let values = texels.map(|t| component.value(&t[channel * step..])).collect();
-        Ok(Plane::new(width, height, values)?)
+        Ok(GrayImage::new(width, height, values)?)
     };
     (0..channels).map(plane).collect()
 }

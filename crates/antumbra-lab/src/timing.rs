@@ -7,16 +7,15 @@
 
 use crate::{
     gpu::Gpu,
-    lighting::{Lighting, Lookup},
     results::{PassTime, Spread, TimeMethod, TimeResult},
-    stage::{Casters, Stage},
 };
 use antumbra::{Probe, ShadowMap};
+use antumbra_render::{Casters, GpuScene, Lighting, Lookup};
 use anyhow::Result;
 use std::time::Instant;
 
-/// Most passes of one frame that are timed.
-const MOST_PASSES: u32 = 1024;
+/// Largest number of passes of one frame that are timed.
+const MAX_PASSES: u32 = 1024;
 
 /// Milliseconds per label.
 type Passes = Vec<(&'static str, f64)>;
@@ -36,12 +35,12 @@ impl Stopwatch {
             let set = gpu.device.create_query_set(&wgpu::QuerySetDescriptor {
                 label: Some("timestamps"),
                 ty: wgpu::QueryType::Timestamp,
-                count: 2 * MOST_PASSES,
+                count: 2 * MAX_PASSES,
             });
             let buffer = |usage| {
                 gpu.device.create_buffer(&wgpu::BufferDescriptor {
                     label: Some("timestamps"),
-                    size: 16 * u64::from(MOST_PASSES),
+                    size: 16 * u64::from(MAX_PASSES),
                     usage,
                     mapped_at_creation: false,
                 })
@@ -49,7 +48,7 @@ impl Stopwatch {
             use wgpu::BufferUsages as Usage;
             (set, buffer(Usage::QUERY_RESOLVE | Usage::COPY_SRC), buffer(Usage::COPY_DST | Usage::MAP_READ))
         });
-        Self { queries, labels: Vec::with_capacity(MOST_PASSES as usize) }
+        Self { queries, labels: Vec::with_capacity(MAX_PASSES as usize) }
     }
 
     fn resolve(&self, encoder: &mut wgpu::CommandEncoder) {
@@ -95,7 +94,7 @@ impl Probe for Stopwatch {
     fn pass(&mut self, label: &'static str, _: usize) -> Option<wgpu::RenderPassTimestampWrites<'_>> {
         let (set, ..) = self.queries.as_ref()?;
         let index = 2 * self.labels.len() as u32;
-        if index + 2 > 2 * MOST_PASSES {
+        if index + 2 > 2 * MAX_PASSES {
             return None;
         }
         self.labels.push(label);
@@ -107,40 +106,40 @@ impl Probe for Stopwatch {
     }
 }
 
-/// What one entrant of a race looks like: `None` shades without any shadow.
+/// What a frame that is timed draws: `None` shades without any shadow.
 #[derive(Debug, Clone, Copy)]
-pub struct Entrant<'a> {
+pub struct TimedFrame<'a> {
     /// The shadow map, prepared, and how its casters are drawn.
     pub shadows: Option<(&'a ShadowMap, &'a Casters)>,
     /// Its lookup pass.
     pub lookup: &'a Lookup,
 }
 
-/// All samples of one entrant.
+/// All samples of one frame.
 #[derive(Debug, Default)]
 struct Samples {
     frame: Vec<f64>,
     passes: Vec<(&'static str, Vec<f64>)>,
 }
 
-/// Times whole frames (cast, filter, surfaces, lookup) of all entrants in turns. The first round
-/// warms up and does not count. `progress` hears shares in (0,1].
+/// Times whole frames (cast, filter, surfaces, lookup) of all `frames` in turns. The first round
+/// warms up and does not count. `progress` is told shares in (0,1].
 ///
 /// # Errors
 /// If the device is lost.
-pub fn race(
+pub fn time_interleaved(
     gpu: &Gpu,
-    stage: &Stage,
+    scene: &GpuScene,
     lighting: &Lighting,
-    entrants: &[Entrant<'_>],
+    frames: &[TimedFrame<'_>],
     rounds: u32,
     progress: &dyn Fn(f32),
 ) -> Result<Vec<TimeResult>> {
     let mut stopwatch = Stopwatch::new(gpu);
-    let mut samples: Vec<Samples> = entrants.iter().map(|_| Samples::default()).collect();
+    let mut samples: Vec<Samples> = frames.iter().map(|_| Samples::default()).collect();
     for round in 0..=rounds {
-        for (entrant, samples) in entrants.iter().zip(&mut samples) {
-            let (frame, passes) = frame(gpu, stage, lighting, *entrant, &mut stopwatch)?;
+        for (timed, samples) in frames.iter().zip(&mut samples) {
+            let (frame, passes) = frame(gpu, scene, lighting, *timed, &mut stopwatch)?;
             if round > 0 {
                 samples.frame.push(frame);
                 for (name, ms) in passes {
@@ -169,20 +168,20 @@ fn frame_method(gpu: &Gpu) -> TimeMethod {
 /// One frame: milliseconds of all of it, and per pass.
 fn frame(
     gpu: &Gpu,
-    stage: &Stage,
+    scene: &GpuScene,
     lighting: &Lighting,
-    entrant: Entrant<'_>,
+    timed: TimedFrame<'_>,
     stopwatch: &mut Stopwatch,
 ) -> Result<(f64, Passes)> {
     stopwatch.labels.clear();
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    if let Some((shadows, casters)) = entrant.shadows {
-        shadows.encode_probed(&mut encoder, stopwatch, |pass| stage.draw_casters(casters, pass))?;
+    if let Some((shadows, casters)) = timed.shadows {
+        shadows.encode_probed(&mut encoder, stopwatch, |pass| scene.draw_casters(casters, pass))?;
     }
-    stage.encode_surfaces(&mut encoder, stopwatch.pass("surfaces", 0));
+    scene.encode_surfaces(&mut encoder, stopwatch.pass("surfaces", 0));
     let timestamps = stopwatch.pass("lookup", 0);
-    let shadows = entrant.shadows.map(|(shadows, _)| shadows);
-    lighting.encode_lookup(&mut encoder, stage, entrant.lookup, shadows, timestamps);
+    let shadows = timed.shadows.map(|(shadows, _)| shadows);
+    lighting.encode_lookup(&mut encoder, scene, timed.lookup, shadows, timestamps);
     stopwatch.resolve(&mut encoder);
     let start = Instant::now();
     gpu.finish(encoder)?;

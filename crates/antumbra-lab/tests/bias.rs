@@ -5,10 +5,11 @@
 
 use antumbra::technique::Bias;
 use antumbra_lab::{
-    bias::{self, Request, Row, Standing},
-    compare::{self, Silent},
+    bias::{self, Ranking, Request, Row},
     gpu::Gpu,
-    setting::Setting,
+    progress::NoProgress,
+    shot::Shot,
+    specs,
 };
 use antumbra_scene::procedural;
 use antumbra_testing::Trials;
@@ -42,8 +43,8 @@ fn main() {
         });
         trials.add(format!("{scene}: no fixed bias errs less"), move |gpu| {
             let settings: Vec<&str> = [["auto"].as_slice(), &FIXED].concat();
-            for standing in bias::standings(&sharp_study(gpu, scene, &["hard", "pcf"], &settings)) {
-                let Standing { auto, best, others, .. } = standing;
+            for ranking in bias::rank_biases(&sharp_study(gpu, scene, &["hard", "pcf"], &settings)) {
+                let Ranking { auto, best, others, .. } = ranking;
                 let best = best.unwrap().rmse;
                 assert!(auto.rmse <= WORSE * best, "{auto:?}, best {best}");
                 assert!(others[0].rmse > WORSE * best, "any bias would do: {:?}", others[0]);
@@ -104,7 +105,7 @@ fn measure(
     let scene = procedural::by_name(scene).unwrap().scene(1);
     let specs: Vec<String> = techniques.iter().map(|spec| spec.to_string()).collect();
     let settings: Vec<Bias> = settings.iter().map(|text| text.parse().unwrap()).collect();
-    let setting = Setting {
+    let shot = Shot {
         name: scene.name.clone(),
         camera: scene.main_camera(),
         light: scene.main_light(),
@@ -115,10 +116,7 @@ fn measure(
         cascades: 1,
         bias: Bias::Auto,
     };
-    let request = Request {
-        setting: &setting,
-        techniques: &compare::techniques(&specs, 5).unwrap(),
-        settings: &settings,
-    };
-    bias::study(&gpu, &request, &Silent).unwrap().rows
+    let request =
+        Request { shot: &shot, techniques: &specs::techniques(&specs, 5).unwrap(), settings: &settings };
+    bias::study(&gpu, &request, &NoProgress).unwrap().rows
 }

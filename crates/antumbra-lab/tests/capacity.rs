@@ -4,13 +4,8 @@
 #![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
 
 use antumbra::{Capacity, technique::Bias};
-use antumbra_lab::{
-    compare::{self, Entered},
-    gpu::Gpu,
-    results::Refused,
-    setting::Setting,
-    stage::Stage,
-};
+use antumbra_lab::{gpu::Gpu, prepared::Prepared, results::Refused, session::Session, shot::Shot, specs};
+use antumbra_render::GpuScene;
 use antumbra_scene::procedural;
 use antumbra_testing::Trials;
 use std::sync::Arc;
@@ -19,42 +14,46 @@ const RESOLUTION: [u32; 2] = [16, 12];
 
 fn main() {
     let mut trials = Trials::default();
-    trials.add("a stage knows how many triangles its maps must hold", |gpu| {
+    trials.add("a scene knows how many triangles its maps must hold", |gpu| {
         for (name, pieces) in [("spheres", 1), ("spot", 2)] {
-            let (stage, setting) = staged(&adopted(gpu), name);
+            let (scene, shot) = uploaded(&adopted(gpu), name);
             assert_eq!(
-                stage.capacity().triangles as usize,
-                pieces * setting.geometry.triangle_count(),
+                scene.capacity().triangles as usize,
+                pieces * shot.geometry.triangle_count(),
                 "{name}"
             );
         }
     });
     trials.add("maps that are too small are allocated anew", |gpu| {
         let gpu = adopted(gpu);
-        let (stage, _) = staged(&gpu, "spheres");
-        let enough = stage.capacity().triangles;
+        let enough = uploaded(&gpu, "spheres").0.capacity().triangles;
         for spec in ["dpm", "exact"] {
-            let entered = enter(&gpu, "spheres", few(5), &[spec]).unwrap();
-            let [contestant] = &entered.contestants[..] else { panic!("{entered:?}") };
-            assert_eq!((contestant.shadows.capacity().triangles, contestant.invalid()), (enough, None));
+            let session = prepare(&gpu, "spheres", few(5), &[spec]).unwrap();
+            let [prepared] = session.prepared() else { panic!("{session:?}") };
+            assert_eq!((prepared.shadows.capacity().triangles, prepared.invalid()), (enough, None));
         }
     });
     trials.add("where that is refused they are invalid", |_| {
-        let entered = enter(&opened(), "contact", few(16), &["hard", "dpm.keeps=1"]).unwrap();
-        let invalid: Vec<_> = entered.contestants.iter().map(compare::Contestant::invalid).collect();
-        assert!(entered.left_out.is_empty(), "{:?}", entered.left_out);
+        let gpu = opened();
+        let mut session = prepare(&gpu, "contact", few(16), &["hard", "dpm.keeps=1"]).unwrap();
+        let invalid: Vec<_> = session.prepared().iter().map(Prepared::invalid).collect();
+        assert!(session.left_out().is_empty(), "{:?}", session.left_out());
         assert_eq!(invalid[0], None);
         assert!(invalid[1].as_ref().unwrap().contains("17 triangles, with memory for 16"), "{invalid:?}");
+        session.leave_out_invalid();
+        let [left_out] = session.left_out() else { panic!("{:?}", session.left_out()) };
+        assert!(left_out.spec.starts_with("dpm") && session.prepared().len() == 1, "{left_out}");
     });
     trials.add("what is refused is left out, and the others stay", |_| {
-        let entered = enter(&opened(), "contact", few(17), &["dpm", "hard", "spsm"]).unwrap();
+        let gpu = opened();
+        let session = prepare(&gpu, "contact", few(17), &["dpm", "hard", "spsm"]).unwrap();
         let kept: Vec<_> =
-            entered.contestants.iter().map(|c| (c.entry, c.shadows.technique().page().name)).collect();
+            session.prepared().iter().map(|p| (p.entry, p.shadows.technique().page().name)).collect();
         assert_eq!(kept, [(1, "hard"), (2, "spsm")]);
-        let [left_out] = &entered.left_out[..] else { panic!("{:?}", entered.left_out) };
+        let [left_out] = session.left_out() else { panic!("{:?}", session.left_out()) };
         assert_eq!(left_out.spec, "dpm");
         assert!(left_out.reason.contains("storage"), "{left_out}");
-        let error = enter(&opened(), "contact", few(17), &["dpm"]).unwrap_err();
+        let error = prepare(&gpu, "contact", few(17), &["dpm"]).unwrap_err();
         assert!(error.is::<Refused>() && error.to_string().contains("dpm: "), "{error}");
     });
     trials.run();
@@ -80,9 +79,9 @@ fn few(triangles: u32) -> Capacity {
     Capacity { triangles, ..Capacity::default() }
 }
 
-fn staged(gpu: &Gpu, name: &str) -> (Stage, Setting) {
+fn uploaded(gpu: &Gpu, name: &str) -> (GpuScene, Shot) {
     let scene = procedural::by_name(name).unwrap().scene(1);
-    let setting = Setting {
+    let shot = Shot {
         name: name.into(),
         geometry: Arc::new(scene.flatten()),
         camera: scene.main_camera(),
@@ -93,12 +92,14 @@ fn staged(gpu: &Gpu, name: &str) -> (Stage, Setting) {
         cascades: 1,
         bias: Bias::Auto,
     };
-    (setting.stage(gpu).unwrap(), setting)
+    (shot.upload(gpu).unwrap(), shot)
 }
 
-fn enter(gpu: &Gpu, name: &str, capacity: Capacity, specs: &[&str]) -> anyhow::Result<Entered> {
-    let (mut stage, setting) = staged(gpu, name);
-    stage.set_capacity(capacity);
-    let techniques = compare::techniques(&specs.iter().map(|s| (*s).into()).collect::<Vec<_>>(), 3).unwrap();
-    setting.enter(gpu, &stage, &setting.entries(&techniques)).map(|(entered, _)| entered)
+fn prepare<'g>(gpu: &'g Gpu, name: &str, capacity: Capacity, specs: &[&str]) -> anyhow::Result<Session<'g>> {
+    let (mut scene, shot) = uploaded(gpu, name);
+    scene.set_capacity(capacity);
+    let specs: Vec<String> = specs.iter().map(|s| (*s).into()).collect();
+    let mut session = Session::on(gpu, &shot, scene)?;
+    session.prepare(shot.map_size, &shot.entries(&specs::techniques(&specs, 3).unwrap()))?;
+    Ok(session)
 }

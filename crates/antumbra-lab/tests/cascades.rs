@@ -5,10 +5,12 @@
 
 use antumbra::technique::Bias;
 use antumbra_lab::{
-    compare::{self, Comparison, Request, Silent},
+    compare::{self, Comparison, Request},
     gpu::Gpu,
-    metrics::FEWEST_DEEP,
-    setting::Setting,
+    metrics::MIN_DEEP_PIXELS,
+    progress::NoProgress,
+    shot::Shot,
+    specs,
 };
 use antumbra_scene::{Camera, Instance, Light, Material, Mesh, Projection, Scene};
 use antumbra_testing::Trials;
@@ -18,7 +20,7 @@ use std::sync::Arc;
 fn main() {
     let mut trials = Trials::default();
     trials.add("cascades_show_what_one_map_of_a_valley_loses", |gpu| {
-        let [one, four] = [1, 4].map(|cascades| run(gpu, &Setting { cascades, ..valley() }, &["evsm"]));
+        let [one, four] = [1, 4].map(|cascades| run(gpu, &Shot { cascades, ..valley() }, &["evsm"]));
         let scores = [&one, &four].map(|c| c.results.techniques[0].scores.hard);
         let none = one.results.truth.no_shadow.rmse;
         // With one view the board's shadow is narrower than a texel: hardly better than none at all.
@@ -30,14 +32,13 @@ fn main() {
     });
     trials.add("the_ideal_blurs_by_the_texels_of_each_pixel_s_own_map", |gpu| {
         // Filtered comparison is the ideal but for the size of texels, which this map makes small everywhere.
-        let setting = Setting { map_size: 1024, cascades: 4, ..valley() };
-        let score = |setting: &Setting| run(gpu, setting, &["pcf"]).results.techniques[0].scores.light_space;
-        let rmse = score(&setting).rmse;
+        let shot = Shot { map_size: 1024, cascades: 4, ..valley() };
+        let score = |shot: &Shot| run(gpu, shot, &["pcf"]).results.techniques[0].scores.light_space;
+        let rmse = score(&shot).rmse;
         let errors = |comparison: &Comparison| comparison.results.techniques[0].scores.light_space.rmse;
         // Negative control: the same map against the ideal of a kernel four times as wide.
-        let wide =
-            Request { setting: Setting { kernel: 17, ..setting.clone() }, ..request(&setting, &["pcf"]) };
-        let wrong = errors(&compare::compare(&adopt(gpu), &wide, &Silent).unwrap());
+        let wide = Request { shot: Shot { kernel: 17, ..shot.clone() }, ..request(&shot, &["pcf"]) };
+        let wrong = errors(&compare::compare(&adopt(gpu), &wide, &NoProgress).unwrap());
         assert!(rmse < 0.05 && wrong > 1.5 * rmse, "{rmse} {wrong}");
     });
     trials.add("parallel_and_rolled_cameras_have_cascades", |gpu| {
@@ -45,7 +46,7 @@ fn main() {
         let up = Vec3::new(0.3, 1.0, 0.1).normalize();
         let projection = Projection::Orthographic { height: 12.0 };
         let camera = Camera { up, projection, ..own.camera };
-        let results = run(gpu, &Setting { camera, cascades: 3, ..own }, &["hard", "dpm"]).results;
+        let results = run(gpu, &Shot { camera, cascades: 3, ..own }, &["hard", "dpm"]).results;
         assert_eq!(results.run.views.len(), 3);
         let agreement = results.truth.coverage_agreement;
         assert!(agreement > 0.99, "{agreement}");
@@ -55,14 +56,14 @@ fn main() {
         }
     });
     trials.add("means_over_few_pixels_are_told_by_their_number", |gpu| {
-        let small = Setting { resolution: [40, 30], ..valley() };
+        let small = Shot { resolution: [40, 30], ..valley() };
         let score = run(gpu, &small, &["hard"]).results.techniques[0].scores.hard;
-        assert!(score.deep_shadow_pixels < FEWEST_DEEP && score.leak.is_none(), "{score:?}");
-        assert!(score.deep_lit_pixels >= FEWEST_DEEP && score.over_darkening.is_some(), "{score:?}");
+        assert!(score.deep_shadow_pixels < MIN_DEEP_PIXELS && score.leak.is_none(), "{score:?}");
+        assert!(score.deep_lit_pixels >= MIN_DEEP_PIXELS && score.over_darkening.is_some(), "{score:?}");
     });
     trials.add("every_technique_takes_eight_cascades", |gpu| {
-        let setting = Setting { cascades: 8, map_size: 128, resolution: [32, 24], ..valley() };
-        let results = run(gpu, &setting, &["all"]).results;
+        let shot = Shot { cascades: 8, map_size: 128, resolution: [32, 24], ..valley() };
+        let results = run(gpu, &shot, &["all"]).results;
         assert!(results.left_out.is_empty(), "{:?}", results.left_out);
         assert!(results.techniques.iter().all(|t| t.invalid.is_none()), "{:?}", results.techniques);
     });
@@ -73,18 +74,18 @@ fn adopt(gpu: &antumbra_testing::Gpu) -> Gpu {
     Gpu::adopt(gpu.device.clone(), gpu.queue.clone(), gpu.info.clone())
 }
 
-fn request(setting: &Setting, specs: &[&str]) -> Request {
+fn request(shot: &Shot, specs: &[&str]) -> Request {
     let specs: Vec<String> = specs.iter().map(|s| (*s).into()).collect();
-    let techniques = compare::techniques(&specs, setting.kernel).unwrap();
-    Request { setting: setting.clone(), techniques, grid: 1, rounds: 1, command: Vec::new() }
+    let techniques = specs::techniques(&specs, shot.kernel).unwrap();
+    Request { shot: shot.clone(), techniques, grid: 1, rounds: 1, command: Vec::new() }
 }
 
-fn run(gpu: &antumbra_testing::Gpu, setting: &Setting, specs: &[&str]) -> Comparison {
-    compare::compare(&adopt(gpu), &request(setting, specs), &Silent).unwrap()
+fn run(gpu: &antumbra_testing::Gpu, shot: &Shot, specs: &[&str]) -> Comparison {
+    compare::compare(&adopt(gpu), &request(shot, specs), &NoProgress).unwrap()
 }
 
 /// Ground of 3 km between slopes of 1.2 km, and a board of 6 m by 3 m near the camera.
-fn valley() -> Setting {
+fn valley() -> Shot {
     let mut mesh = Mesh::default();
     let quad = |mesh: &mut Mesh, corners: [[f32; 3]; 4]| {
         let corners = corners.map(Vec3::from);
@@ -109,7 +110,7 @@ fn valley() -> Setting {
         ..Scene::default()
     };
     scene.validate().unwrap();
-    Setting {
+    Shot {
         name: scene.name.clone(),
         geometry: Arc::new(scene.flatten()),
         camera: Camera {

@@ -11,7 +11,7 @@ use antumbra::{
 };
 use antumbra_scene::{AlphaMode, Camera, Image, Instance, Light, Material, Mesh, Projection, Scene};
 use antumbra_testing::Trials;
-use common::{Shot, score};
+use common::{Picture, score};
 use glam::{DMat4, Mat4, Vec2, Vec3, Vec4};
 
 const RESOLUTION: [u32; 2] = [256, 192];
@@ -47,7 +47,7 @@ fn main() {
 
 /// Share of pixels that show what rays see.
 fn matched(gpu: &antumbra_testing::Gpu, light: Light, spec: &str, cutouts: bool) -> f64 {
-    let mut shot = Shot::new(gpu, &leaves(light), RESOLUTION);
+    let mut shot = Picture::new(gpu, &leaves(light), RESOLUTION);
     shot.cutouts = cutouts;
     shot.capacity = Capacity { triangles_per_texel: 32, ..shot.capacity };
     let technique = technique::parse(spec).unwrap();

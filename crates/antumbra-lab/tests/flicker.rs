@@ -4,13 +4,14 @@
 
 use antumbra::{Technique, technique, technique::Bias};
 use antumbra_lab::{
-    compare::Silent,
     flicker::{self, Promise, Request, Results, TechniqueFlicker},
     gpu::Gpu,
     motion::{Frame, Path},
-    setting::Setting,
-    stage::Stage,
+    progress::NoProgress,
+    readback,
+    shot::Shot,
 };
+use antumbra_render::GpuScene;
 use antumbra_scene::{Camera, procedural};
 use antumbra_testing::{Trials, broken::Broken};
 use std::sync::Arc;
@@ -19,8 +20,8 @@ fn main() {
     let mut trials = Trials::default();
     trials.add("sub_pixel_shadow_maps_hardly_flicker_where_polygons_are_large", |gpu| {
         let both = request("contact", Path::Both, &["hard", "spsm"]);
-        let setting = Setting { resolution: [240, 180], ..both.setting.clone() };
-        let results = run(gpu, &Request { setting, frames: 9, until: 9, ..both });
+        let shot = Shot { resolution: [240, 180], ..both.shot.clone() };
+        let results = run(gpu, &Request { shot, frames: 9, until: 9, ..both });
         let ratio = of(&results, "spsm").ratio_to_hard.unwrap();
         // Measured: 0.093. Centres, which tell where no kept triangle does, round the corners of polygons.
         assert!(ratio < 0.15, "{ratio}");
@@ -65,31 +66,31 @@ fn main() {
         let results = run(gpu, &request("contact", Path::Recede, &["hard", "csm.terms=4"]));
         assert!(results.techniques.iter().all(|t| t.promise == Promise::ScreenSpace));
     });
-    trials.add("a_stage_that_looks_elsewhere_draws_what_a_new_one_draws", |gpu| {
-        let (gpu, scene) = (adopt(gpu), request("spheres", Path::Both, &[]));
-        let frames = Path::Both.frames(&scene.setting.camera, &scene.setting.light, 2).unwrap();
-        let stage = |camera: &Camera, light| {
-            Stage::new(&gpu, &scene.setting.geometry, camera, light, scene.setting.resolution).unwrap()
+    trials.add("a_scene_that_looks_elsewhere_draws_what_a_new_one_draws", |gpu| {
+        let (gpu, own) = (adopt(gpu), request("spheres", Path::Both, &[]));
+        let frames = Path::Both.frames(&own.shot.camera, &own.shot.light, 2).unwrap();
+        let upload = |camera: &Camera, light| {
+            GpuScene::new(&gpu, &own.shot.geometry, camera, light, own.shot.resolution).unwrap()
         };
-        let draw = |stage: &Stage| {
+        let draw = |scene: &GpuScene| {
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
-            stage.encode_surfaces(&mut encoder, None);
+            scene.encode_surfaces(&mut encoder, None);
             gpu.finish(encoder).unwrap();
-            stage.surfaces().read_positions(&gpu).unwrap()
+            readback::positions(&gpu, scene.surfaces()).unwrap()
         };
-        let mut moved = stage(&frames[0].camera, &frames[0].light);
+        let mut moved = upload(&frames[0].camera, &frames[0].light);
         let before = draw(&moved);
-        let there = stage(&frames[1].camera, &frames[1].light);
+        let there = upload(&frames[1].camera, &frames[1].light);
         let Frame { camera, light } = frames[1];
-        assert_eq!(moved.camera_matrix_of(&scene.setting.geometry, &camera, &light), there.camera_matrix());
-        moved.look(&gpu, &scene.setting.geometry, &camera, &light);
+        assert_eq!(moved.camera_matrix_of(&own.shot.geometry, &camera, &light), there.camera_matrix());
+        moved.look(&gpu, &own.shot.geometry, &camera, &light);
         assert_eq!(moved.camera_matrix(), there.camera_matrix());
         assert!(draw(&moved) == draw(&there) && draw(&moved) != before);
     });
     trials.add("bad_requests_are_refused_by_name", |gpu| {
         let good = || request("contact", Path::Both, &["hard"]);
         let refused = |request: Request, words: &str| {
-            let error = flicker::measure(&adopt(gpu), &request, &Silent).unwrap_err();
+            let error = flicker::measure(&adopt(gpu), &request, &NoProgress).unwrap_err();
             assert!(format!("{error:#}").contains(words), "{error:#}");
         };
         refused(Request { frames: 1, ..good() }, "1 frames show no motion");
@@ -123,7 +124,7 @@ fn main() {
 fn request(scene: &str, path: Path, techniques: &[&str]) -> Request {
     let scene = procedural::by_name(scene).unwrap().scene(1);
     Request {
-        setting: Setting {
+        shot: Shot {
             name: scene.name.clone(),
             camera: scene.main_camera(),
             light: scene.main_light(),
@@ -157,10 +158,10 @@ fn wobbling() -> Box<dyn Technique> {
 /// The camera moves close to things, so that the light's view has to follow it.
 fn close_up(technique: Box<dyn Technique>) -> Request {
     let far = request("spheres", Path::Camera, &[]);
-    let own = far.setting.camera;
+    let own = far.shot.camera;
     let camera = Camera { position: own.target.lerp(own.position, 0.5), ..own };
-    let setting = Setting { camera, ..far.setting.clone() };
-    Request { setting, frames: 9, until: 9, techniques: vec![technique], ..far }
+    let shot = Shot { camera, ..far.shot.clone() };
+    Request { shot, frames: 9, until: 9, techniques: vec![technique], ..far }
 }
 
 fn adopt(gpu: &antumbra_testing::Gpu) -> Gpu {
@@ -168,7 +169,7 @@ fn adopt(gpu: &antumbra_testing::Gpu) -> Gpu {
 }
 
 fn measure(gpu: &antumbra_testing::Gpu, request: &Request) -> flicker::Outcome {
-    flicker::measure(&adopt(gpu), request, &Silent).unwrap()
+    flicker::measure(&adopt(gpu), request, &NoProgress).unwrap()
 }
 
 fn run(gpu: &antumbra_testing::Gpu, request: &Request) -> Results {

@@ -8,7 +8,7 @@ mod common;
 use antumbra::technique::{self, Bias};
 use antumbra_scene::{Camera, Instance, Light, Material, Mesh, Projection, Scene};
 use antumbra_testing::Trials;
-use common::{Shot, score};
+use common::{Picture, score};
 use glam::{DMat4, Mat4, Vec2, Vec3, Vec4};
 
 const RESOLUTION: [u32; 2] = [320, 240];
@@ -19,7 +19,7 @@ fn main() {
     let mut trials = Trials::default();
     for (size, folds) in [(96, 0.03), (96, 0.08), (192, 0.03), (192, 0.08)] {
         trials.add(format!("folds of {folds} on a map of {size}"), move |gpu| {
-            let mut shot = Shot::new(gpu, &plant(folds), RESOLUTION);
+            let mut shot = Picture::new(gpu, &plant(folds), RESOLUTION);
             let truth = shot.hard_truth();
             let [hard, exact, dpm] = ["hard", "exact", "dpm"].map(|spec| {
                 let technique = technique::parse(spec).unwrap();

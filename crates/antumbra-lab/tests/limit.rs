@@ -6,11 +6,11 @@
 mod common;
 
 use antumbra::{Capacity, Technique, View, technique::Bias};
-use antumbra_lab::{compare, plane::Plane};
+use antumbra_lab::{image::GrayImage, readback, specs};
 use antumbra_scene::{Light, procedural};
 use antumbra_testing::{Gpu, Trials};
 use antumbra_truth::{Hit, Tracer, Visibility};
-use common::Shot;
+use common::Picture;
 use glam::DVec3;
 
 const RESOLUTION: [u32; 2] = [256, 192];
@@ -68,15 +68,15 @@ struct Differences {
 impl Differences {
     fn of(spec: &str, capacity: Capacity, gpu: &Gpu, scene: &str, size: u32) -> Self {
         let scene = procedural::by_name(scene).unwrap().scene(1);
-        let mut shot = Shot::new(gpu, &scene, RESOLUTION);
+        let mut shot = Picture::new(gpu, &scene, RESOLUTION);
         shot.capacity = capacity;
-        let technique = compare::techniques(&[spec.into()], 5).unwrap().remove(0);
+        let technique = specs::techniques(&[spec.into()], 5).unwrap().remove(0);
         let technique: &dyn Technique = technique.as_ref();
         let (maps, view) = shot.maps(&[technique], size, Bias::Auto);
         let answer = shot.visibility(&maps[0]);
         let tracer = Tracer::new(&shot.geometry).unwrap();
         let hits = tracer.primary(&shot.rays());
-        let drawn = shot.stage.triangle_numbers(&shot.gpu, &shot.geometry).unwrap();
+        let drawn = readback::triangle_ids(&shot.gpu, &shot.on_gpu, &shot.geometry).unwrap();
         Self::count(&tracer, &shot.light, &view, &hits, &drawn, &answer, &shot.hard_truth())
     }
 
@@ -86,7 +86,7 @@ impl Differences {
         view: &View,
         hits: &[Hit],
         drawn: &[u32],
-        answer: &Plane,
+        answer: &GrayImage,
         truth: &Visibility,
     ) -> Self {
         let mut found = Self::default();

@@ -1,18 +1,18 @@
 //! Every metric against a value computed by hand, and against an image that it must tell apart.
 
+use antumbra_lab::image::GrayImage;
 use antumbra_lab::metrics::{ScoreError, no_shadow_baseline, score};
-use antumbra_lab::plane::Plane;
 
 /// Left half shadowed, right half lit: 20 columns, 10 rows, the edge between columns 9 and 10.
-fn halves() -> Plane {
-    Plane::from_fn(20, 10, |x, _| if x < 10 { 0.0 } else { 1.0 })
+fn halves() -> GrayImage {
+    GrayImage::from_fn(20, 10, |x, _| if x < 10 { 0.0 } else { 1.0 })
 }
 
 const ALL: [bool; 200] = [true; 200];
 
 /// `halves`, moved right by `columns`.
-fn moved(columns: u32) -> Plane {
-    Plane::from_fn(20, 10, |x, _| if x < 10 + columns { 0.0 } else { 1.0 })
+fn moved(columns: u32) -> GrayImage {
+    GrayImage::from_fn(20, 10, |x, _| if x < 10 + columns { 0.0 } else { 1.0 })
 }
 
 fn near(measured: f64, by_hand: f64) {
@@ -50,7 +50,7 @@ fn shifted_image_loses_the_columns_between() {
 fn leak_counts_deep_shadow_only() {
     // Shadowed columns 0..=9; column 6 is four pixels from column 10, the nearest lit one, and the
     // last to be deep. A visibility of 0.2 everywhere in columns 5..=9 is deep in 5 and 6 of 7.
-    let test = Plane::from_fn(20, 10, |x, _| if (5..10).contains(&x) { 0.2 } else { f32::from(x >= 10) });
+    let test = GrayImage::from_fn(20, 10, |x, _| if (5..10).contains(&x) { 0.2 } else { f32::from(x >= 10) });
     let score_of_test = score(&test, &halves(), &ALL).unwrap();
     near(score_of_test.leak.unwrap(), 2.0 * f64::from(0.2_f32) / 7.0);
     assert_eq!(score_of_test.over_darkening, Some(0.0));
@@ -60,7 +60,8 @@ fn leak_counts_deep_shadow_only() {
 #[test]
 fn over_darkening_counts_deep_light_only() {
     // Lit columns 10..=19, deep from column 13 on: seven columns, of which 13 and 14 are at 0.7.
-    let test = Plane::from_fn(20, 10, |x, _| if (10..15).contains(&x) { 0.7 } else { f32::from(x >= 10) });
+    let test =
+        GrayImage::from_fn(20, 10, |x, _| if (10..15).contains(&x) { 0.7 } else { f32::from(x >= 10) });
     let score_of_test = score(&test, &halves(), &ALL).unwrap();
     near(score_of_test.over_darkening.unwrap(), 2.0 * f64::from(1.0 - 0.7_f32) / 7.0);
     assert_eq!(score_of_test.leak, Some(0.0));
@@ -68,7 +69,7 @@ fn over_darkening_counts_deep_light_only() {
 
 #[test]
 fn inverted_image_is_as_wrong_as_can_be() {
-    let inverted = Plane::from_fn(20, 10, |x, _| f32::from(x < 10));
+    let inverted = GrayImage::from_fn(20, 10, |x, _| f32::from(x < 10));
     let score = score(&inverted, &halves(), &ALL).unwrap();
     assert_eq!((score.pixel_match, score.pixel_match_near_edges), (0.0, Some(0.0)));
     assert_eq!((score.rmse, score.mae, score.psnr), (1.0, 1.0, Some(0.0)));
@@ -96,7 +97,7 @@ fn pixels_that_are_not_shadowable_count_for_nothing() {
 
 #[test]
 fn transposed_mask_changes_every_pixel_metric() {
-    let truth = Plane::from_fn(10, 10, |x, _| if x < 3 { 0.0 } else { 1.0 });
+    let truth = GrayImage::from_fn(10, 10, |x, _| if x < 3 { 0.0 } else { 1.0 });
     let columns: Vec<bool> = (0..100).map(|i| i % 10 < 5).collect();
     let rows: Vec<bool> = (0..100).map(|i| i / 10 < 5).collect();
     let by_columns = no_shadow_baseline(&truth, &columns).unwrap();
@@ -116,7 +117,7 @@ fn no_shadow_at_all_matches_every_lit_pixel() {
 
 #[test]
 fn what_a_truth_does_not_have_is_none() {
-    let lit = Plane::filled(20, 10, 1.0);
+    let lit = GrayImage::filled(20, 10, 1.0);
     let score = score(&lit, &lit, &ALL).unwrap();
     assert_eq!((score.leak, score.pixel_match_near_edges), (None, None));
     assert_eq!(score.acne, Some(0.0));
@@ -142,7 +143,7 @@ fn values_that_are_no_visibility_are_refused() {
 
 #[test]
 fn other_sizes_and_empty_masks_are_refused() {
-    let transposed = Plane::from_fn(10, 20, |_, _| 1.0);
+    let transposed = GrayImage::from_fn(10, 20, |_, _| 1.0);
     assert!(matches!(score(&transposed, &halves(), &ALL), Err(ScoreError::Size { .. })));
     assert!(matches!(score(&halves(), &halves(), &ALL[1..]), Err(ScoreError::Size { .. })));
     assert_eq!(score(&halves(), &halves(), &[false; 200]), Err(ScoreError::NothingShadowable(200)));
@@ -156,7 +157,7 @@ fn means_over_few_pixels_are_not_told() {
     assert_eq!((few.heard().leak, few.heard().over_darkening), (None, None));
     assert_eq!((few.heard().acne, few.heard().rmse), (few.acne, few.rmse));
     // Of twenty columns of shadow and sixty of light, in 20 rows, 17 and 57 are deep.
-    let wide = Plane::from_fn(80, 20, |x, _| if x < 20 { 0.0 } else { 1.0 });
+    let wide = GrayImage::from_fn(80, 20, |x, _| if x < 20 { 0.0 } else { 1.0 });
     let some = score(&wide, &wide, &[true; 1600]).unwrap();
     assert_eq!((some.deep_shadow_pixels, some.deep_lit_pixels), (17 * 20, 57 * 20));
     assert_eq!((some.heard().leak, some.heard().over_darkening), (None, Some(0.0)));

@@ -8,13 +8,13 @@ use antumbra::{
     Capabilities, Hard, Parameter, ShadowMap, Size, Stratified, Technique, Unsupported, technique,
     technique::{Bias, BiasTerms, Binding, Family, Map, Page, Uniform},
 };
-use antumbra_lab::{compare, gpu::Gpu, plane::Plane};
+use antumbra_lab::{gpu::Gpu, image::GrayImage, specs};
 use antumbra_scene::{
     AlphaMode, Camera, Image, Instance, Light, Material, Mesh, Projection, Scene, procedural,
 };
 use antumbra_testing::Trials;
 use antumbra_truth::Tracer;
-use common::{KERNEL, Shot, score};
+use common::{KERNEL, Picture, score};
 use glam::{DMat4, DVec3, Vec2, Vec3, Vec4};
 
 fn main() {
@@ -24,11 +24,11 @@ fn main() {
             // Twigs and grass are about as small as pixels here: more centres lie on an edge.
             let fine = ["fence", "backyard", "trees", "city"].contains(&entry.name);
             let least = if fine { 0.996 } else { 0.999 };
-            sees_what_rays_see(&Shot::new(gpu, &entry.scene(1), [320, 240]), least);
+            sees_what_rays_see(&Picture::new(gpu, &entry.scene(1), [320, 240]), least);
         });
     }
     trials.add("coverage_of_cutouts", |gpu| {
-        sees_what_rays_see(&Shot::new(gpu, &checkered(true), [320, 240]), 0.999)
+        sees_what_rays_see(&Picture::new(gpu, &checkered(true), [320, 240]), 0.999)
     });
     trials.add("coverage_of_parallel_rays", |gpu| {
         let mut scene = procedural::by_name("spheres").unwrap().scene(1);
@@ -37,7 +37,7 @@ fn main() {
         let position = own.target + 0.3 * (own.position - own.target);
         let projection = Projection::Orthographic { height: 4.0 };
         scene.cameras[0] = Camera { position, projection, up: Vec3::new(0.4, 1.0, 0.1), ..own };
-        sees_what_rays_see(&Shot::new(gpu, &scene, [320, 240]), 0.999);
+        sees_what_rays_see(&Picture::new(gpu, &scene, [320, 240]), 0.999);
     });
     trials.add("backs_of_single_sided_walls_are_seen_through", dollhouse);
     trials.add("a_near_surface_is_not_clipped", near_surface);
@@ -51,7 +51,7 @@ fn main() {
 }
 
 /// At least that share of pixels shows the same triangle, and every other has a good reason.
-fn sees_what_rays_see(shot: &Shot, least: f64) {
+fn sees_what_rays_see(shot: &Picture, least: f64) {
     let coverage = shot.coverage();
     // Graphics cards round corners in ways of their own before they snap them.
     let allowed = if shot.gpu.info.device_type == wgpu::DeviceType::Cpu { 0 } else { 2 };
@@ -71,7 +71,8 @@ fn dollhouse(gpu: &antumbra_testing::Gpu) {
     scene.meshes.push(quad([wall[3], wall[2], wall[1], wall[0]], 2));
     scene.instances.push(Instance::new(2, DMat4::IDENTITY));
     let see = |single_sided| {
-        let mut shot = Shot::with(gpu, &scene, [320, 240], |geometry| geometry.single_sided = single_sided);
+        let mut shot =
+            Picture::with(gpu, &scene, [320, 240], |geometry| geometry.single_sided = single_sided);
         sees_what_rays_see(&shot, 0.999);
         let hits = Tracer::new(&shot.geometry).unwrap().primary(&shot.rays());
         let wall = shot.geometry.groups.iter().find(|(m, _)| *m == 2).unwrap().1.clone();
@@ -100,7 +101,7 @@ fn near_surface(gpu: &antumbra_testing::Gpu) {
         target: Vec3::new(0.0, -0.01, 2.49),
         ..scene.cameras[0]
     };
-    let shot = Shot::new(gpu, &scene, [320, 240]);
+    let shot = Picture::new(gpu, &scene, [320, 240]);
     sees_what_rays_see(&shot, 0.999);
     let rays = shot.rays();
     let nearest = Tracer::new(&shot.geometry).unwrap().trace(&rays.ray(160.0, 239.5)).position;
@@ -110,7 +111,7 @@ fn near_surface(gpu: &antumbra_testing::Gpu) {
 /// Half a pixel aside is enough to be noticed.
 fn another_camera(gpu: &antumbra_testing::Gpu) {
     let scene = procedural::by_name("contact").unwrap().scene(1);
-    let mut shot = Shot::new(gpu, &scene, [320, 240]);
+    let mut shot = Picture::new(gpu, &scene, [320, 240]);
     shot.camera.target.x += 0.01;
     let coverage = shot.coverage();
     assert!(coverage.unexplained > 0 && coverage.agreement() < 0.999, "{coverage:?}");
@@ -166,15 +167,15 @@ fn checkered(masked: bool) -> Scene {
 }
 
 fn holes(gpu: &antumbra_testing::Gpu) {
-    let mut masked = Shot::new(gpu, &checkered(true), [320, 240]);
-    let mut solid = Shot::new(gpu, &checkered(false), [320, 240]);
+    let mut masked = Picture::new(gpu, &checkered(true), [320, 240]);
+    let mut solid = Picture::new(gpu, &checkered(false), [320, 240]);
     let truth = masked.hard_truth();
     let good = score(&masked.answer(&Hard::default(), 1024, Bias::Auto), &truth).pixel_match;
     assert!(good >= 0.98, "pixel match {good}");
     // The shadow of the uncut quad is not that shadow.
     let other = score(&solid.answer(&Hard::default(), 1024, Bias::Auto), &truth).pixel_match;
     assert!(other < 0.98, "pixel match {other}");
-    let dark = |shot: &mut Shot| {
+    let dark = |shot: &mut Picture| {
         shot.answer(&Hard::default(), 1024, Bias::Auto).values.iter().filter(|v| **v < 0.5).count() as f64
     };
     let share = dark(&mut masked) / dark(&mut solid);
@@ -222,7 +223,7 @@ impl Technique for Gradients {
 fn derivatives(gpu: &antumbra_testing::Gpu) {
     let corners = square(2.0, 0.5, 0.6);
     let mut shot =
-        Shot::new(gpu, &placed(vec![quad(corners, 0)], vec![Material::default()], Vec::new()), [160, 120]);
+        Picture::new(gpu, &placed(vec![quad(corners, 0)], vec![Material::default()], Vec::new()), [160, 120]);
     let [a, b, c, _] = corners.map(Vec3::as_dvec3);
     let normal = (b - a).cross(c - a);
     let rays = shot.rays();
@@ -282,8 +283,8 @@ const SPOT_BOUND: f64 = 0.130;
 
 /// Bounds on the distance from truth, which pictures that are wrong must exceed.
 fn spot(gpu: &antumbra_testing::Gpu) {
-    let mut shot = Shot::new(gpu, &procedural::by_name("spot").unwrap().scene(1), [320, 240]);
-    let techniques = compare::techniques(&["all".into()], KERNEL).unwrap();
+    let mut shot = Picture::new(gpu, &procedural::by_name("spot").unwrap().scene(1), [320, 240]);
+    let techniques = specs::techniques(&["all".into()], KERNEL).unwrap();
     let all: Vec<&dyn Technique> = techniques.iter().map(|t| t.as_ref()).collect();
     let (maps, view) = shot.maps(&all, 1024, Bias::Auto);
     let (hard, ideal) = (shot.hard_truth(), shot.light_space_ideal(&view));
@@ -294,7 +295,7 @@ fn spot(gpu: &antumbra_testing::Gpu) {
         let rmse = score(&answer, &ideal).rmse;
         assert!(rmse <= bound, "{name}: RMSE {rmse} is above {bound}");
         let shifted = |x: u32, y| answer.get((x + 4).min(answer.width - 1), y).unwrap();
-        let shifted = Plane::from_fn(answer.width, answer.height, shifted);
+        let shifted = GrayImage::from_fn(answer.width, answer.height, shifted);
         let rmse = score(&shifted, &ideal).rmse;
         assert!(rmse > bound, "{name}: RMSE {rmse} four pixels aside");
         let pixel_match = score(&answer, &hard).pixel_match;
@@ -311,7 +312,7 @@ fn finer(gpu: &antumbra_testing::Gpu) {
     const SIDE: u32 = 96;
     // Of graphics cards' corners, snapped to fractions of texels of two sizes.
     let rounding = if gpu.is_software() { 1e-5 } else { 1e-3 };
-    let mut shot = Shot::new(gpu, &procedural::by_name("spheres").unwrap().scene(1), [64, 48]);
+    let mut shot = Picture::new(gpu, &procedural::by_name("spheres").unwrap().scene(1), [64, 48]);
     let floats = |bytes: &[u8]| -> Vec<f32> {
         bytes.chunks_exact(4).map(|b| f32::from_ne_bytes(b.try_into().unwrap())).collect()
     };

@@ -3,8 +3,8 @@
 
 use antumbra_lab::classes::ClassShare;
 use antumbra_lab::files::{FileError, write_atomically};
+use antumbra_lab::image::{GrayImage, Rgba8Image};
 use antumbra_lab::metrics::{Score, score};
-use antumbra_lab::plane::{Plane, Rgba8Image};
 use antumbra_lab::report::{self, ReportError};
 use antumbra_lab::results::{
     AdapterFacts, BoundsFacts, CameraFacts, Family, LeftOut, LensFacts, Lifetime, LightFacts, MemoryItem,
@@ -38,8 +38,8 @@ impl Drop for Folder {
 }
 
 fn technique(spec: &str, title: &str, family: Family, visibility: f32) -> TechniqueResult {
-    let truth = Plane::from_fn(12, 12, |x, _| f32::from(x > 5));
-    let test = Plane::from_fn(12, 12, |x, _| if x > 5 { visibility } else { 0.0 });
+    let truth = GrayImage::from_fn(12, 12, |x, _| f32::from(x > 5));
+    let test = GrayImage::from_fn(12, 12, |x, _| if x > 5 { visibility } else { 0.0 });
     let score = score(&test, &truth, &[true; 144]).unwrap();
     let stem = report::file_stem(spec);
     let image = |what: &str| format!("{stem}-{what}.png");

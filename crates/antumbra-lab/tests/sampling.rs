@@ -6,11 +6,11 @@
 mod common;
 
 use antumbra::{Technique, technique::Bias};
-use antumbra_lab::{compare, plane::Plane};
+use antumbra_lab::{image::GrayImage, specs};
 use antumbra_scene::{Camera, Light, Projection, Scene, procedural};
 use antumbra_testing::{Gpu, Trials};
 use antumbra_truth::{Tracer, Visibility};
-use common::{KERNEL, Shot};
+use common::{KERNEL, Picture};
 use glam::{Mat4, Vec3};
 
 const MAP: u32 = 1024;
@@ -62,11 +62,11 @@ fn long_wall() -> Scene {
 }
 
 fn technique(spec: &str) -> Box<dyn Technique> {
-    compare::techniques(&[spec.into()], KERNEL).unwrap().remove(0)
+    specs::techniques(&[spec.into()], KERNEL).unwrap().remove(0)
 }
 
 /// RMSE over the pixels of a mask.
-fn rmse(answer: &Plane, truth: &Visibility, mask: &[bool]) -> f64 {
+fn rmse(answer: &GrayImage, truth: &Visibility, mask: &[bool]) -> f64 {
     let pairs = answer.values.iter().zip(&truth.values).zip(mask).filter(|(_, chosen)| **chosen);
     let (sum, count) = pairs.fold((0.0, 0u32), |(s, n), ((v, t), _)| (s + f64::from(v - t).powi(2), n + 1));
     assert!(count > 1000, "only {count} pixels");
@@ -75,7 +75,7 @@ fn rmse(answer: &Plane, truth: &Visibility, mask: &[bool]) -> f64 {
 
 /// Beyond 12 m each technique errs hardly more than without mips; by the longer side of footprints it does.
 fn far_shadows_stay(gpu: &Gpu) {
-    let mut shot = Shot::new(gpu, &open_ground(), [320, 240]);
+    let mut shot = Picture::new(gpu, &open_ground(), [320, 240]);
     let (_, view) = shot.maps(&[technique("vsm").as_ref()], MAP, Bias::Auto);
     let ideal = shot.light_space_ideal(&view);
     let eye = shot.camera.position.as_dvec3();
@@ -102,7 +102,7 @@ fn far_shadows_stay(gpu: &Gpu) {
 /// Exponentials make streaks of light in the shadow of a wall that is seen along it, where the farthest
 /// parts of a long footprint outweigh all others. A kernel that is no wider than set makes none.
 fn no_streaks_along_a_wall(gpu: &Gpu) {
-    let mut shot = Shot::new(gpu, &long_wall(), [320, 240]);
+    let mut shot = Picture::new(gpu, &long_wall(), [320, 240]);
     let (_, view) = shot.maps(&[technique("esm").as_ref()], 2 * MAP, Bias::Auto);
     let ideal = shot.light_space_ideal(&view);
     let mut error = |spec: &str| {
@@ -124,7 +124,7 @@ fn fine_shadows_are_averaged(gpu: &Gpu) {
     let mut camera = scene.main_camera();
     camera.position = camera.target + 4.0 * (camera.position - camera.target);
     scene.cameras = vec![camera];
-    let mut shot = Shot::new(gpu, &scene, [200, 150]);
+    let mut shot = Picture::new(gpu, &scene, [200, 150]);
     let tracer = Tracer::new(&shot.geometry).unwrap();
     let truth = tracer.supersampled(&shot.rays(), &shot.light, 4, &|_| ());
     drop(tracer);

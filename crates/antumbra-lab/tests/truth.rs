@@ -14,15 +14,15 @@ use antumbra::{
     technique::{Bias, BiasTerms},
 };
 use antumbra_lab::{
-    compare,
+    image::GrayImage,
     metrics::{self, Score},
-    plane::Plane,
     regions::{self, Region},
+    specs,
 };
 use antumbra_scene::{Light, Scene, procedural};
 use antumbra_testing::{Gpu, Trials, broken::Broken};
 use antumbra_truth::{Tracer, Visibility};
-use common::{KERNEL, Shot, score};
+use common::{KERNEL, Picture, score};
 use glam::Vec3;
 use std::sync::OnceLock;
 
@@ -119,7 +119,7 @@ fn contact_at_noon() -> Scene {
 
 /// One of the scenes on the GPU, and what is right there.
 struct Sight {
-    shot: Shot,
+    shot: Picture,
     truth: &'static Truth,
 }
 
@@ -132,7 +132,7 @@ struct Truth {
 }
 
 impl Truth {
-    fn new(shot: &mut Shot) -> Self {
+    fn new(shot: &mut Picture) -> Self {
         let techniques = techniques();
         let all: Vec<&dyn Technique> = techniques.iter().map(|t| t.as_ref()).collect();
         let (_, view) = shot.maps(&all, MAP, Bias::Auto);
@@ -153,12 +153,12 @@ impl Sight {
             "contact at noon" => contact_at_noon(),
             name => procedural::by_name(name).unwrap().scene(1),
         };
-        let mut shot = Shot::new(gpu, &built, RESOLUTION);
+        let mut shot = Picture::new(gpu, &built, RESOLUTION);
         let truth = TRUTHS[scene].get_or_init(|| Truth::new(&mut shot));
         Self { shot, truth }
     }
 
-    fn answer(&mut self, technique: &dyn Technique) -> Plane {
+    fn answer(&mut self, technique: &dyn Technique) -> GrayImage {
         let (mut maps, _) = self.shot.maps(&[technique], MAP, Bias::Auto);
         maps[0].prepare(&self.shot.gpu.queue, &[self.truth.view]).unwrap();
         self.shot.visibility(&maps[0])
@@ -171,14 +171,14 @@ impl Sight {
     /// The same over one of the named parts.
     fn score_part(&mut self, technique: &dyn Technique, part: &str) -> Score {
         let ideal = &self.truth.ideal;
-        let plane = Plane::new(ideal.width, ideal.height, ideal.values.clone()).unwrap();
+        let plane = GrayImage::new(ideal.width, ideal.height, ideal.values.clone()).unwrap();
         let part = self.truth.parts.iter().find(|region| region.name == part).unwrap();
         metrics::score(&self.answer(technique), &plane, &part.pixels).unwrap()
     }
 }
 
 fn techniques() -> Vec<Box<dyn Technique>> {
-    compare::techniques(&["all".into()], KERNEL).unwrap()
+    specs::techniques(&["all".into()], KERNEL).unwrap()
 }
 
 /// Which bound of a technique a score exceeds, if it does.
@@ -323,7 +323,7 @@ impl Order {
     fn check(&self, gpu: &Gpu) -> Result<(), String> {
         let mut sight = Sight::new(gpu, self.scene);
         let mut value = |spec: &str| {
-            let technique = compare::techniques(&[spec.into()], KERNEL).unwrap().remove(0);
+            let technique = specs::techniques(&[spec.into()], KERNEL).unwrap().remove(0);
             let technique = technique.as_ref();
             match self.measure {
                 Measure::Leak => sight.score(technique).leak.unwrap(),

@@ -1,15 +1,15 @@
 //! Brabec and Seidel 2001, Hardware-accelerated rendering of antialiased shadows with shadow maps.
 
 use crate::{
-    bench::Bench,
     gallery,
     page::{Cell, Page, Table, Unit},
     raster::difference,
-    study::Truth,
     target::{Source, Target},
     verdict::{Verdict, at_most, less, more},
+    workbench::Workbench,
 };
-use antumbra_lab::plane::Plane;
+use antumbra_lab::image::GrayImage;
+use antumbra_lab::truth::Truth;
 use anyhow::Result;
 
 mod depths;
@@ -68,7 +68,7 @@ const FIGURE_7: [(&str, &str, f64); 4] = [
     ("packed.grid=4", "(d) fast PCF 4×4", 5.0),
 ];
 
-fn figure_7(bench: &Bench<'_>) -> Result<Page> {
+fn figure_7(bench: &Workbench<'_>) -> Result<Page> {
     let Filters { mut page, errors, steps, ratios } = filters(bench, 1.0, 512, &FIGURE_7)?;
     page.verdict(close_to_pcf(errors[1], errors[2], errors[0]));
     page.verdict(faster_than_pcf(ratios[1], ratios[2]));
@@ -79,7 +79,7 @@ fn figure_7(bench: &Bench<'_>) -> Result<Page> {
     Ok(page)
 }
 
-fn figure_8(bench: &Bench<'_>) -> Result<Page> {
+fn figure_8(bench: &Workbench<'_>) -> Result<Page> {
     let pair = [("hard", "(a) without filtering", 15.0), ("packed.grid=2", "(b) fast PCF 2×2", 10.0)];
     let Filters { mut page, steps, .. } = filters(bench, 0.5, 1024, &pair)?;
     page.verdict(smooth(steps[0], steps[1]));
@@ -99,7 +99,7 @@ struct Filters {
 
 /// Root of the mean square of what visibility changes by from a pixel to the next, right and below,
 /// where both can be in shadow. An edge that is spread over n pixels counts 1/√n of a sharp one.
-fn blockiness(visibility: &Plane, shadowable: &[bool]) -> f64 {
+fn blockiness(visibility: &GrayImage, shadowable: &[bool]) -> f64 {
     let (width, values) = (visibility.width as usize, &visibility.values);
     let (mut sum, mut count) = (0.0, 0_u64);
     for i in 0..values.len() {
@@ -116,13 +116,13 @@ fn blockiness(visibility: &Plane, shadowable: &[bool]) -> f64 {
 }
 
 /// Pictures, a table and its numbers.
-fn filters(bench: &Bench<'_>, distance: f32, map: u32, row: &[(&str, &str, f64)]) -> Result<Filters> {
+fn filters(bench: &Workbench<'_>, distance: f32, map: u32, row: &[(&str, &str, f64)]) -> Result<Filters> {
     let specs: Vec<&str> = row.iter().map(|r| r.0).collect();
     let (shot, map) = (bench.shot("brabec", [800, 600]).from(distance), bench.map(map));
     let study = bench.study(shot, map, &specs)?;
     let truth = &bench.truths(&study, &[Truth::ScreenSpace(4)])?[0];
-    let entrants: Vec<(u32, &str)> = specs.iter().map(|s| (map, *s)).collect();
-    let times = bench.race(shot, &entrants, bench.rounds(7))?;
+    let frames: Vec<(u32, &str)> = specs.iter().map(|s| (map, *s)).collect();
+    let times = bench.times(shot, &frames, bench.rounds(7))?;
     let mut table = Table::new(
         "RMSE to the truth; blockiness, the RMS change of visibility from pixel to pixel; frame time over that \
          without filtering (the paper's from frames per second).",
@@ -131,7 +131,7 @@ fn filters(bench: &Bench<'_>, distance: f32, map: u32, row: &[(&str, &str, f64)]
     let (mut errors, mut steps, mut ratios, mut pictures) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     for ((spec, name, fps), time) in row.iter().zip(&times) {
         let rmse = bench.score(&study, spec, truth, None)?.rmse;
-        let blocky = blockiness(&study.look(spec)?.visibility()?, &truth.shadowable);
+        let blocky = blockiness(&study.look(spec)?.visibility()?, &truth.truth.shadowable);
         let ratio = time.frame.median_ms / times[0].frame.median_ms;
         let own = [rmse, blocky].map(|v| Cell::ours(v, Unit::Number));
         let time = Cell::ours(ratio, Unit::Times).paper(row[0].2 / fps);
@@ -208,11 +208,11 @@ mod tests {
 
     #[test]
     fn blockiness_falls_with_the_width_of_an_edge() {
-        let edge = |ramp: f32| Plane::from_fn(8, 2, |x, _| ((x as f32 - 2.0) / ramp).clamp(0.0, 1.0));
+        let edge = |ramp: f32| GrayImage::from_fn(8, 2, |x, _| ((x as f32 - 2.0) / ramp).clamp(0.0, 1.0));
         let all = [true; 16];
         let [sharp, wide] = [1.0, 4.0].map(|ramp| blockiness(&edge(ramp), &all));
         assert!((sharp / wide - 2.0).abs() < 1e-6, "{sharp} {wide}");
-        assert_eq!(blockiness(&Plane::filled(8, 2, 1.0), &all), 0.0);
+        assert_eq!(blockiness(&GrayImage::filled(8, 2, 1.0), &all), 0.0);
         assert_eq!(blockiness(&edge(1.0), &[false; 16]), 0.0);
     }
 }

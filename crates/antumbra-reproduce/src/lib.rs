@@ -1,6 +1,6 @@
 //! The experiments of the shadow map papers, run again on scenes that anyone can make.
 //!
-//! A [`target::Target`] is a table or figure of a source; running it on a [`bench::Bench`] gives a
+//! A [`target::Target`] is a table or figure of a source; running it on a [`workbench::Workbench`] gives a
 //! [`page::Page`], which [`html`] shows and [`results`] keeps as data. [`run`](run()) does this for a
 //! list of targets and writes a folder:
 //!
@@ -13,7 +13,6 @@
 //!
 //! Every verdict is computed from what was measured ([`verdict`]).
 
-pub mod bench;
 mod brabec;
 pub mod cache;
 pub mod catalogue;
@@ -33,5 +32,6 @@ pub mod study;
 mod table;
 pub mod target;
 pub mod verdict;
+pub mod workbench;
 
-pub use run::{Done, Options, check, run};
+pub use run::{Options, RunObserver, check, run};

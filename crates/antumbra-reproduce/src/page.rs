@@ -143,7 +143,8 @@ pub struct Entry {
     /// One for each column.
     pub values: Vec<Option<f64>>,
     /// Columns in which no other row of the scene is both better and faster.
-    pub leads: Vec<String>,
+    #[serde(rename = "leads")]
+    pub on_front: Vec<String>,
 }
 
 impl Page {

@@ -1,7 +1,7 @@
 //! Pictures as they are kept, cut out and enlarged.
 
 use crate::cache::packed;
-use antumbra_lab::plane::{self, Plane, Rgba8Image};
+use antumbra_lab::image::{self, GrayImage, Rgba8Image};
 use anyhow::Result;
 use serde::{Deserialize, Serialize};
 
@@ -39,7 +39,7 @@ impl Raster {
     /// A window that is empty or leaves the picture.
     pub fn close_up(&self, window: Window, zoom: u32) -> Result<Self> {
         let pixels: Vec<&[u8]> = self.rgba.chunks_exact(4).collect();
-        let cut = plane::crop(&pixels, self.size, window)?;
+        let cut = image::crop(&pixels, self.size, window)?;
         let [width, height] = [window[2], window[3]].map(|n| n * zoom);
         let at = |x: u32, y: u32| cut[((y / zoom) * window[2] + x / zoom) as usize];
         let rgba = (0..height).flat_map(|y| (0..width).flat_map(move |x| at(x, y).iter().copied()));
@@ -76,7 +76,7 @@ pub fn difference(a: &Raster, b: &Raster) -> Vec<f64> {
 
 /// Visibility in linear grey, half of it being byte 128.
 #[must_use]
-pub fn gray(plane: &Plane) -> Raster {
+pub fn gray(plane: &GrayImage) -> Raster {
     let byte = |v: &f32| (v.clamp(0.0, 1.0) * 255.0).round() as u8;
     let rgba = plane.values.iter().flat_map(|v| [byte(v), byte(v), byte(v), 255]);
     Raster { size: [plane.width, plane.height], rgba: rgba.collect() }
@@ -130,12 +130,12 @@ mod tests {
 
     #[test]
     fn a_close_up_enlarges_its_window() {
-        let plane = Plane::from_fn(4, 3, |x, y| (x + y) as f32 / 8.0);
+        let plane = GrayImage::from_fn(4, 3, |x, y| (x + y) as f32 / 8.0);
         let cut = gray(&plane).close_up([1, 1, 2, 2], 3).unwrap();
         assert_eq!(cut.size, [6, 6]);
         assert_eq!(cut.rgba[..12], [64, 64, 64, 255].repeat(3));
         assert!(gray(&plane).close_up([3, 0, 2, 2], 1).is_err());
-        let other = gray(&Plane::filled(4, 3, 0.0));
+        let other = gray(&GrayImage::filled(4, 3, 0.0));
         assert_eq!(difference(&gray(&plane), &gray(&plane)), [0.0; 12]);
         assert!(difference(&gray(&plane), &other)[11] > difference(&gray(&plane), &other)[1]);
         assert!(gray(&plane).framed([1, 1, 2, 1]).rgba.chunks_exact(4).any(|p| p[0] == 214));

@@ -1,17 +1,17 @@
 //! Runs targets and writes their pages.
 
 use crate::{
-    bench::Bench,
     catalogue, html,
     page::Page,
     results::{Record, Reproduction, SCHEMA},
     target::Target,
     verdict::Verdict,
+    workbench::Workbench,
 };
 use antumbra::Unsupported;
 use antumbra_lab::{
-    compare::Progress,
     files,
+    progress::Progress,
     results::{Program, Refused},
 };
 use anyhow::{Context, Result, bail};
@@ -33,8 +33,8 @@ pub struct Options {
     pub quick: bool,
 }
 
-/// Hears what has been done.
-pub trait Done: Progress {
+/// Is told what has been done.
+pub trait RunObserver: Progress {
     /// So much of all targets is done (0 to 1), and about so many seconds are left.
     fn total(&self, target: &str, share: f64, seconds_left: f64);
     /// A target's page has been written.
@@ -46,11 +46,11 @@ pub trait Done: Progress {
 ///
 /// # Errors
 /// A folder with foreign content; what a target's measurements fail with; a full disk.
-pub fn run(options: &Options, done: &dyn Done) -> Result<Reproduction> {
+pub fn run(options: &Options, observer: &dyn RunObserver) -> Result<Reproduction> {
     let output = &options.output;
     let before = check(output)?;
     fs::create_dir_all(output).with_context(|| output.display().to_string())?;
-    let bench = Bench::new(&output.join("cache"), options.quick, done)?;
+    let bench = Workbench::new(&output.join("cache"), options.quick, observer)?;
     let mut results = Reproduction {
         schema: SCHEMA.into(),
         program: Program { name: "antumbra".into(), version: env!("CARGO_PKG_VERSION").into() },
@@ -68,14 +68,14 @@ pub fn run(options: &Options, done: &dyn Done) -> Result<Reproduction> {
         // Expected times are scaled by what the machine took so far.
         let (past, took) = (expected.get(), start.elapsed().as_secs_f64());
         let pace = if past > 30.0 { took / past } else { 1.0 };
-        done.total(target.id, past / total, (total - past) * pace);
+        observer.total(target.id, past / total, (total - past) * pace);
         let begun = Instant::now();
         let page = measured((target.run)(&bench)).with_context(|| format!("target {}", target.id))?;
         let record = Record::new(target, &page, &bench.build, options.quick, begun.elapsed().as_secs_f64());
         let text = html::page(target, &page, &record, &results);
         files::write_atomically(&output.join(&record.file), text.as_bytes())?;
         results.targets.retain(|r| r.id != record.id);
-        done.target(&record);
+        observer.target(&record);
         results.targets.push(record);
         results.targets.sort_by_key(|r| catalogue::all().position(|t| t.id == r.id));
         write_index(output, &results)?;

@@ -1,14 +1,14 @@
 //! The lecture slides on filtered hard shadows.
 
 use crate::{
-    bench::Bench,
     page::{Cell, Page, Table, Tile, Unit},
     raster::{busiest, difference},
-    study::Truth,
     target::{Source, Target},
     verdict::{Verdict, at_most, less, more},
+    workbench::Workbench,
 };
-use antumbra_lab::plane::Plane;
+use antumbra_lab::image::GrayImage;
+use antumbra_lab::truth::Truth;
 use anyhow::Result;
 use std::collections::BTreeSet;
 
@@ -68,7 +68,7 @@ const ROW: [(&str, &str, u32); 5] = [
     ("pcf.kernel=4,weights=box", "PCF 4×4, bilinear lookups", 4),
 ];
 
-fn pcf_row(bench: &Bench<'_>) -> Result<Page> {
+fn pcf_row(bench: &Workbench<'_>) -> Result<Page> {
     let specs = ROW.map(|(spec, ..)| spec);
     let study = bench.study(bench.shot("spheres", [640, 480]), bench.map(512), &specs)?;
     let truths = bench.truths(&study, &[Truth::LightSpace(4), Truth::Hard, Truth::ScreenSpace(4)])?;
@@ -80,7 +80,7 @@ fn pcf_row(bench: &Bench<'_>) -> Result<Page> {
     );
     let mut numbers = Vec::new();
     for (spec, name, _) in ROW {
-        let levels = levels(&study.look(spec)?.visibility()?, &truths[0].shadowable);
+        let levels = levels(&study.look(spec)?.visibility()?, &truths[0].truth.shadowable);
         let rmse = bench.score(&study, spec, &truths[0], None)?.rmse;
         let smooth = bench.score(&study, spec, &truths[2], None)?.rmse;
         let cells = [(levels as f64, Unit::Number), (rmse, Unit::Number), (smooth, Unit::Number)];
@@ -104,7 +104,7 @@ fn pcf_row(bench: &Bench<'_>) -> Result<Page> {
 }
 
 /// How many different visibilities there are, to a thousandth, in pixels that can be in shadow.
-fn levels(plane: &Plane, shadowable: &[bool]) -> usize {
+fn levels(plane: &GrayImage, shadowable: &[bool]) -> usize {
     let values = plane.values.iter().zip(shadowable).filter(|(_, s)| **s);
     values.map(|(v, _)| (1000.0 * v).round() as i32).collect::<BTreeSet<_>>().len()
 }
@@ -151,7 +151,7 @@ mod tests {
 
     #[test]
     fn levels_are_counted_where_shadow_can_be() {
-        let plane = Plane::new(4, 1, vec![0.0, 1.0, 0.5, 0.5]).unwrap();
+        let plane = GrayImage::new(4, 1, vec![0.0, 1.0, 0.5, 0.5]).unwrap();
         assert_eq!(levels(&plane, &[true, true, true, false]), 3);
         assert_eq!(levels(&plane, &[true, false, false, false]), 1);
     }

@@ -1,6 +1,6 @@
 //! The step of the shadow test as a technique reconstructs it.
 
-use crate::bench::Bench;
+use crate::workbench::Workbench;
 use antumbra_lab::chart::{Curve, Panel};
 use anyhow::Result;
 
@@ -20,7 +20,7 @@ pub(crate) struct Step {
 
 impl Step {
     /// Measures a technique between two values of d − z.
-    pub(crate) fn measure(bench: &Bench<'_>, spec: &str, reach: [f32; 2]) -> Result<Self> {
+    pub(crate) fn measure(bench: &Workbench<'_>, spec: &str, reach: [f32; 2]) -> Result<Self> {
         let at = |i: u16| reach[0] + (reach[1] - reach[0]) * f32::from(i) / f32::from(POINTS - 1);
         let behind: Vec<f32> = (0..POINTS).map(at).collect();
         let depths: Vec<f32> = behind.iter().map(|b| CASTER + b).collect();

@@ -5,17 +5,18 @@ use antumbra::{View, technique};
 use antumbra_lab::{
     classes::ClassShare,
     flicker::{self, TechniqueFlicker},
-    plane::Plane,
+    image::GrayImage,
     results::{LeftOut, MemoryResult, Refused, Work},
+    truth::TruthImage,
 };
 use anyhow::{Context, Result};
 use glam::{Mat4, Vec4};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// A scene seen by its own camera in its own light.
+/// What a shot is kept by: a scene seen by its own camera in its own light.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Shot<S = &'static str> {
+pub struct ShotKey<S = &'static str> {
     /// Name of the procedural scene; its seed is the default one.
     pub scene: S,
     /// How far the camera is from its target, in the distances of the scene's own camera.
@@ -26,7 +27,7 @@ pub struct Shot<S = &'static str> {
     pub resolution: [u32; 2],
 }
 
-impl Shot {
+impl ShotKey {
     /// The same from farther away (or nearer), `distance` times the scene's own.
     #[must_use]
     pub fn from(self, distance: f32) -> Self {
@@ -65,7 +66,7 @@ pub struct Look {
 #[derive(Debug, Clone)]
 pub struct Study {
     /// What was seen.
-    pub shot: Shot,
+    pub shot: ShotKey,
     /// Texels along one side of the maps.
     pub map: u32,
     /// In the order they were asked for.
@@ -111,28 +112,22 @@ impl ViewFacts {
     }
 }
 
-/// What is right, by which question.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Truth {
-    /// One shadow ray per pixel.
-    Hard,
-    /// Ray-traced depth behind a Gaussian of so many texels of the study's map.
-    LightSpace(u32),
-    /// So many rays per pixel along each side.
-    ScreenSpace(u32),
-}
-
 /// A truth as it was traced.
 #[derive(Debug, Clone)]
 pub struct Traced {
-    /// Visibility, 1 lit.
-    pub plane: Plane,
-    /// Pixels that see geometry facing the light.
-    pub shadowable: Vec<bool>,
+    /// Visibility, and the pixels that see geometry facing the light.
+    pub truth: TruthImage,
     /// The scene shaded with it.
     pub picture: Raster,
     pub(crate) key: String,
+}
+
+impl Traced {
+    pub(crate) fn new(file: TracedFile, [width, height]: [u32; 2], key: String) -> Result<Self> {
+        let image = GrayImage::new(width, height, file.values)?;
+        let shadowable = file.shadowable.into_iter().map(|s| s != 0).collect();
+        Ok(Self { truth: TruthImage { image, shadowable }, picture: file.picture, key })
+    }
 }
 
 /// A scene in motion.
@@ -201,10 +196,10 @@ impl Look {
     /// Visibility in each pixel.
     ///
     /// # Errors
-    /// Never for a look that a [`Bench`](crate::bench::Bench) made.
-    pub fn visibility(&self) -> Result<Plane> {
+    /// Never for a look that a [`Workbench`](crate::workbench::Workbench) made.
+    pub fn visibility(&self) -> Result<GrayImage> {
         let [width, height] = self.picture.size;
-        Ok(Plane::new(width, height, self.visibility.clone())?)
+        Ok(GrayImage::new(width, height, self.visibility.clone())?)
     }
 
     /// The share of a kind of pixels, 0..1, if the technique has it.

@@ -1,17 +1,18 @@
 //! The table: every technique on every scene against ray-traced truth.
 
 use crate::{
-    bench::Bench,
     page::{Block, Column, Entry, Matrix, Page, Unit},
-    study::{Look, Study, Truth},
+    study::{Look, Study},
     target::{Source, Target},
+    workbench::Workbench,
 };
 use antumbra::technique;
+use antumbra_lab::truth::Truth;
 use antumbra_lab::{
-    compare,
     metrics::Score,
     motion::Path,
     results::{Refused, TimeResult},
+    specs,
 };
 use antumbra_scene::procedural;
 use anyhow::{Context, Result};
@@ -54,9 +55,17 @@ struct Measured<'a> {
     bytes: u64,
 }
 
-/// A column: key, group, label, meaning, unit, whether higher is better, value.
-type Quantity =
-    (&'static str, &'static str, &'static str, &'static str, Unit, bool, fn(&Measured<'_>) -> Option<f64>);
+/// One column of the table.
+struct Quantity {
+    key: &'static str,
+    group: &'static str,
+    label: &'static str,
+    meaning: &'static str,
+    unit: Unit,
+    /// Whether higher is better.
+    higher: bool,
+    value: fn(&Measured<'_>) -> Option<f64>,
+}
 
 const HARD: &str = "Hard truth";
 const IDEAL: &str = "Light-space ideal";
@@ -67,42 +76,100 @@ const TIME: &str = "time_ratio";
 const ERRORS: [&str; 3] = ["rmse_hard", "rmse_light_space", "rmse_screen_space"];
 
 const QUANTITIES: &[Quantity] = &[
-    (ERRORS[0], HARD, "RMSE", "Error to one shadow ray per pixel", Unit::Number, false, |m| {
-        Some(m.hard.rmse)
-    }),
-    ("pixel_match", HARD, "Match", "Pixels with the same lit or shadowed answer", Unit::Share, true, |m| {
-        Some(m.hard.pixel_match)
-    }),
-    ("acne", HARD, "Acne", "Fully lit pixels that are answered shadowed", Unit::Share, false, |m| {
-        m.hard.acne
-    }),
-    (ERRORS[1], IDEAL, "RMSE", "Error to depth from rays behind the same kernel", Unit::Number, false, |m| {
-        Some(m.light_space.rmse)
-    }),
-    ("leak", IDEAL, "Leak", "Mean visibility deep in shadow", Unit::Share, false, |m| m.light_space.leak),
-    ("over_darkening", IDEAL, "Over-dark", "Mean 1 − visibility deep in light", Unit::Share, false, |m| {
-        m.light_space.over_darkening
-    }),
-    (ERRORS[2], SMOOTH, "RMSE", "Error to 16 rays per pixel", Unit::Number, false, |m| {
-        Some(m.screen_space.rmse)
-    }),
-    (
-        "flicker",
-        "Motion",
-        "Flicker",
-        "Change of the error from frame to frame over that of the standard map, each against what it promises",
-        Unit::Times,
-        false,
-        |m| m.flicker,
-    ),
-    (TIME, COST, "Time", "Frame time over that of the standard map", Unit::Times, false, |m| Some(m.time)),
-    ("bytes", COST, "Memory", "Textures and buffers that lookups need", Unit::Bytes, false, |m| {
-        Some(m.bytes as f64)
-    }),
+    Quantity {
+        key: ERRORS[0],
+        group: HARD,
+        label: "RMSE",
+        meaning: "Error to one shadow ray per pixel",
+        unit: Unit::Number,
+        higher: false,
+        value: |m| Some(m.hard.rmse),
+    },
+    Quantity {
+        key: "pixel_match",
+        group: HARD,
+        label: "Match",
+        meaning: "Pixels with the same lit or shadowed answer",
+        unit: Unit::Share,
+        higher: true,
+        value: |m| Some(m.hard.pixel_match),
+    },
+    Quantity {
+        key: "acne",
+        group: HARD,
+        label: "Acne",
+        meaning: "Fully lit pixels that are answered shadowed",
+        unit: Unit::Share,
+        higher: false,
+        value: |m| m.hard.acne,
+    },
+    Quantity {
+        key: ERRORS[1],
+        group: IDEAL,
+        label: "RMSE",
+        meaning: "Error to depth from rays behind the same kernel",
+        unit: Unit::Number,
+        higher: false,
+        value: |m| Some(m.light_space.rmse),
+    },
+    Quantity {
+        key: "leak",
+        group: IDEAL,
+        label: "Leak",
+        meaning: "Mean visibility deep in shadow",
+        unit: Unit::Share,
+        higher: false,
+        value: |m| m.light_space.leak,
+    },
+    Quantity {
+        key: "over_darkening",
+        group: IDEAL,
+        label: "Over-dark",
+        meaning: "Mean 1 − visibility deep in light",
+        unit: Unit::Share,
+        higher: false,
+        value: |m| m.light_space.over_darkening,
+    },
+    Quantity {
+        key: ERRORS[2],
+        group: SMOOTH,
+        label: "RMSE",
+        meaning: "Error to 16 rays per pixel",
+        unit: Unit::Number,
+        higher: false,
+        value: |m| Some(m.screen_space.rmse),
+    },
+    Quantity {
+        key: "flicker",
+        group: "Motion",
+        label: "Flicker",
+        meaning: "Change of the error from frame to frame over that of the standard map, each against what it promises",
+        unit: Unit::Times,
+        higher: false,
+        value: |m| m.flicker,
+    },
+    Quantity {
+        key: TIME,
+        group: COST,
+        label: "Time",
+        meaning: "Frame time over that of the standard map",
+        unit: Unit::Times,
+        higher: false,
+        value: |m| Some(m.time),
+    },
+    Quantity {
+        key: "bytes",
+        group: COST,
+        label: "Memory",
+        meaning: "Textures and buffers that lookups need",
+        unit: Unit::Bytes,
+        higher: false,
+        value: |m| Some(m.bytes as f64),
+    },
 ];
 
-fn run(bench: &Bench<'_>) -> Result<Page> {
-    let techniques = compare::techniques(&["all".into()], KERNEL)?;
+fn run(bench: &Workbench<'_>) -> Result<Page> {
+    let techniques = specs::techniques(&["all".into()], KERNEL)?;
     let specs: Vec<String> = techniques.iter().map(|t| technique::spec(t.as_ref())).collect();
     let family = |spec: &str| -> String {
         let found = specs.iter().position(|s| s == spec);
@@ -125,19 +192,19 @@ fn run(bench: &Bench<'_>) -> Result<Page> {
             title: look.title.clone(),
             family: family(&look.spec),
             values,
-            leads: Vec::new(),
+            on_front: Vec::new(),
         };
         rows.extend(study.looks.iter().zip(values).map(entry));
     }
     let mut rows = [means(&rows), rows].concat();
     mark_fronts(&mut rows);
     let column = |q: &Quantity| Column {
-        key: q.0.into(),
-        group: q.1.into(),
-        label: q.2.into(),
-        meaning: q.3.into(),
-        unit: q.4,
-        higher: q.5,
+        key: q.key.into(),
+        group: q.group.into(),
+        label: q.label.into(),
+        meaning: q.meaning.into(),
+        unit: q.unit,
+        higher: q.higher,
     };
     let matrix = Matrix {
         caption: "Click a heading to sort. An error is underlined where it lies on the Pareto front of its scene: no \
@@ -150,11 +217,11 @@ fn run(bench: &Bench<'_>) -> Result<Page> {
     Ok(page)
 }
 
-fn scene_values(bench: &Bench<'_>, study: &Study) -> Result<Vec<Vec<Option<f64>>>> {
+fn scene_values(bench: &Workbench<'_>, study: &Study) -> Result<Vec<Vec<Option<f64>>>> {
     let specs: Vec<&str> = study.looks.iter().map(|look| look.spec.as_str()).collect();
     let truths = bench.truths(study, &[Truth::Hard, Truth::LightSpace(KERNEL), Truth::ScreenSpace(4)])?;
-    let entrants: Vec<(u32, &str)> = specs.iter().map(|spec| (study.map, *spec)).collect();
-    let times = bench.race(study.shot, &entrants, bench.rounds(3))?;
+    let frames: Vec<(u32, &str)> = specs.iter().map(|spec| (study.map, *spec)).collect();
+    let times = bench.times(study.shot, &frames, bench.rounds(3))?;
     let hard = specs.iter().position(|s| *s == "hard").context("the standard shadow map is missing")?;
     let small = bench.shot(study.shot.scene, SMALL);
     let moving = bench.moving(small, Path::Both, STEPS, bench.map(SMALL_MAP), &specs)?;
@@ -173,7 +240,7 @@ fn scene_values(bench: &Bench<'_>, study: &Study) -> Result<Vec<Vec<Option<f64>>
             time: median(time) / median(&times[hard]),
             bytes: look.memory.kept_bytes,
         };
-        all.push(QUANTITIES.iter().map(|q| (q.6)(&measured).filter(|v| v.is_finite())).collect());
+        all.push(QUANTITIES.iter().map(|q| (q.value)(&measured).filter(|v| v.is_finite())).collect());
     }
     Ok(all)
 }
@@ -206,7 +273,7 @@ fn means(rows: &[Entry]) -> Vec<Entry> {
 
 /// Marks the errors that no other technique of the scene beats without being slower.
 fn mark_fronts(rows: &mut [Entry]) {
-    let index = |key: &str| QUANTITIES.iter().position(|q| q.0 == key);
+    let index = |key: &str| QUANTITIES.iter().position(|q| q.key == key);
     let Some(time) = index(TIME) else { return };
     for key in ERRORS {
         let Some(error) = index(key) else { continue };
@@ -219,7 +286,7 @@ fn mark_fronts(rows: &mut [Entry]) {
                 other == scene && better
             });
             if !beaten {
-                row.leads.push(key.into());
+                row.on_front.push(key.into());
             }
         }
     }
@@ -230,7 +297,7 @@ mod tests {
     use super::*;
 
     fn row(scene: &str, technique: &str, time: f64, error: f64) -> Entry {
-        let value = |q: &Quantity| match q.0 {
+        let value = |q: &Quantity| match q.key {
             TIME => Some(time),
             key if ERRORS.contains(&key) => Some(error),
             _ => None,
@@ -241,7 +308,7 @@ mod tests {
             title: technique.into(),
             family: "basis".into(),
             values: QUANTITIES.iter().map(value).collect(),
-            leads: Vec::new(),
+            on_front: Vec::new(),
         }
     }
 
@@ -254,7 +321,7 @@ mod tests {
             row("b", "neither", 5.0, 0.5),
         ];
         mark_fronts(&mut rows);
-        assert_eq!(rows.map(|r| r.leads.len()), [3, 3, 0, 3]);
+        assert_eq!(rows.map(|r| r.on_front.len()), [3, 3, 0, 3]);
     }
 
     #[test]
@@ -264,7 +331,7 @@ mod tests {
         let means = means(&rows);
         assert_eq!(means.len(), 2);
         assert_eq!((means[0].scene.as_str(), means[0].values[0]), ("mean", Some(0.4)));
-        let time = QUANTITIES.iter().position(|q| q.0 == TIME);
+        let time = QUANTITIES.iter().position(|q| q.key == TIME);
         assert_eq!(time.and_then(|t| means[0].values[t]), Some(2.0));
     }
 }

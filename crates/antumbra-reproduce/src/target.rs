@@ -1,6 +1,6 @@
 //! What can be reproduced.
 
-use crate::{bench::Bench, page::Page};
+use crate::{page::Page, workbench::Workbench};
 use anyhow::Result;
 
 /// A table, a figure or the claims of a paper.
@@ -18,7 +18,7 @@ pub struct Target {
     /// shares measurements: in full, and in a quick run.
     pub seconds: [u32; 2],
     /// Measures and judges.
-    pub run: fn(&Bench<'_>) -> Result<Page>,
+    pub run: fn(&Workbench<'_>) -> Result<Page>,
 }
 
 /// A paper, or what else has targets.

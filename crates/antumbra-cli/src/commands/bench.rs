@@ -17,11 +17,11 @@ pub(crate) fn run(arguments: &Bench) -> Result<()> {
     }
     scene::check(&arguments.scene)?;
     let techniques = techniques::read(&arguments.techniques, arguments.scene.view.kernel)?;
-    let setting = scene::load(&arguments.scene)?;
+    let shot = scene::load(&arguments.scene)?;
     let gpu = Gpu::new()?;
     let results = {
         let bar = Bar::new([("upload", 1.0), ("time", f64::from(arguments.rounds)), ("truth", 2.0)]);
-        bench::measure(&gpu, &setting, &techniques, arguments.rounds, super::command_given(), &bar)?
+        bench::measure(&gpu, &shot, &techniques, arguments.rounds, super::command_given(), &bar)?
     };
     super::note_left_out(&results.left_out);
     let out = &mut io::stdout();

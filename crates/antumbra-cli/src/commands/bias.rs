@@ -18,18 +18,18 @@ pub(crate) fn run(arguments: &Bias) -> Result<()> {
     let out = &mut io::stdout();
     let mut all = serde_json::Map::new();
     for name in &arguments.scenes {
-        let setting = scene::load_view(name, &arguments.view)?;
-        let request = Request { setting: &setting, techniques: &techniques, settings: &settings };
+        let shot = scene::load_view(name, &arguments.view)?;
+        let request = Request { shot: &shot, techniques: &techniques, settings: &settings };
         let bias::Study { rows, left_out } = {
             let bar = Bar::new([("upload", 1.0), ("truth", 8.0), ("render", 6.0)]);
             bias::study(&gpu, &request, &bar)?
         };
         super::note_left_out(&left_out);
         if arguments.json {
-            all.insert(setting.name, json!({ "rows": rows, "left_out": left_out }));
+            all.insert(shot.name, json!({ "rows": rows, "left_out": left_out }));
             continue;
         }
-        writeln!(out, "{}", setting.name)?;
+        writeln!(out, "{}", shot.name)?;
         let cells = |row: &bias::Row| {
             if let Some(why) = &row.invalid {
                 return vec![row.technique.clone(), format!("{}  invalid: {why}", row.bias)];
@@ -45,8 +45,8 @@ pub(crate) fn run(arguments: &Bias) -> Result<()> {
         };
         let table: Vec<Vec<String>> = rows.iter().map(cells).chain(super::left_out_rows(&left_out)).collect();
         table::print(out, &["technique", "bias", "acne %", "detached texels", "RMSE", "dark %"], &table)?;
-        for standing in bias::standings(&rows) {
-            writeln!(out, "{}", standing_line(&standing))?;
+        for ranking in bias::rank_biases(&rows) {
+            writeln!(out, "{}", ranking_line(&ranking))?;
         }
     }
     if arguments.json {
@@ -56,13 +56,13 @@ pub(crate) fn run(arguments: &Bias) -> Result<()> {
 }
 
 /// How many times the error of the best other bias `auto` has.
-fn standing_line(standing: &bias::Standing<'_>) -> String {
+fn ranking_line(ranking: &bias::Ranking<'_>) -> String {
     let against =
-        |best: &bias::Row| format!("{:.2} times that of {}", standing.auto.rmse / best.rmse, best.bias);
-    let best = standing.best.map_or("not comparable, all leave acne".into(), against);
-    let all = match standing.best {
-        Some(best) if best == standing.best_of_all => String::new(),
-        _ => format!("; {}, which leaves acne", against(standing.best_of_all)),
+        |best: &bias::Row| format!("{:.2} times that of {}", ranking.auto.rmse / best.rmse, best.bias);
+    let best = ranking.best.map_or("not comparable, all leave acne".into(), against);
+    let all = match ranking.best {
+        Some(best) if best == ranking.best_of_all => String::new(),
+        _ => format!("; {}, which leaves acne", against(ranking.best_of_all)),
     };
-    format!("{}: RMSE of auto {best}{all}", standing.auto.technique)
+    format!("{}: RMSE of auto {best}{all}", ranking.auto.technique)
 }

@@ -10,10 +10,10 @@ use antumbra_lab::{
     compare::{self, Request},
     files,
     gpu::Gpu,
-    metrics::FEWEST_DEEP,
+    metrics::MIN_DEEP_PIXELS,
     report::{self, significant},
     results::{Results, TechniqueResult},
-    setting::Setting,
+    shot::Shot,
 };
 use anyhow::{Result, bail};
 use std::io::{self, Write};
@@ -28,10 +28,10 @@ pub(crate) fn run(arguments: &Compare) -> Result<()> {
     scene::check(&arguments.scene)?;
     files::check_folder(&arguments.output)?;
     let techniques = techniques::read(&arguments.techniques, arguments.scene.view.kernel)?;
-    let setting = scene::load(&arguments.scene)?;
+    let shot = scene::load(&arguments.scene)?;
     let gpu = Gpu::new()?;
     let request = Request {
-        setting,
+        shot,
         techniques,
         grid: arguments.grid,
         rounds: arguments.rounds,
@@ -39,7 +39,7 @@ pub(crate) fn run(arguments: &Compare) -> Result<()> {
     };
     let comparison = {
         let work = (request.techniques.len(), request.rounds);
-        let Setting { resolution, kernel, .. } = request.setting;
+        let Shot { resolution, kernel, .. } = request.shot;
         let phases = progress::comparison(&gpu, resolution, (kernel, request.grid), work);
         let bar = Bar::new(phases);
         compare::compare(&gpu, &request, &bar)?
@@ -176,7 +176,10 @@ fn print(out: &mut impl Write, results: &Results) -> Result<()> {
         t.scores.light_space.leak.is_none() || t.scores.light_space.over_darkening.is_none()
     };
     if results.valid().any(|t| few(&t)) {
-        writeln!(out, "–: fewer than {FEWEST_DEEP} pixels, in brackets, lie deep enough in shadow or light")?;
+        writeln!(
+            out,
+            "–: fewer than {MIN_DEEP_PIXELS} pixels, in brackets, lie deep enough in shadow or light"
+        )?;
     }
     if results.run.views.len() > 1 {
         let texels: Vec<String> =

@@ -4,8 +4,9 @@ use crate::arguments::Curve;
 use antumbra::{Filter, Technique, technique};
 use antumbra_lab::{
     chart::{self, Panel},
-    compare, curve, files,
+    curve, files,
     gpu::Gpu,
+    specs,
 };
 use anyhow::{Context, Result, bail};
 use serde::Serialize;
@@ -22,7 +23,7 @@ pub(crate) fn run(arguments: &Curve) -> Result<()> {
     let behind = places(arguments)?;
     let groups = arguments.techniques.split(|spec| spec == "/").map(|specs| {
         // All texels are alike here, so that the width of the kernel does not matter.
-        let techniques = compare::techniques(specs, Filter::default().kernel)?;
+        let techniques = specs::techniques(specs, Filter::default().kernel)?;
         if techniques.is_empty() {
             bail!("a panel is empty: name a technique before and after each /");
         }

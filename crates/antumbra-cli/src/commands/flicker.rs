@@ -19,7 +19,7 @@ use std::{
 };
 
 pub(crate) fn run(arguments: &Flicker) -> Result<()> {
-    if !(2..=Path::MOST_FRAMES).contains(&arguments.frames) {
+    if !(2..=Path::MAX_FRAMES).contains(&arguments.frames) {
         bail!("--frames {}: {}", arguments.frames, BadFrameCount { count: arguments.frames });
     }
     if !(1..=16).contains(&arguments.grid) {
@@ -28,14 +28,14 @@ pub(crate) fn run(arguments: &Flicker) -> Result<()> {
     scene::check(&arguments.scene)?;
     files::check_folder(&arguments.output)?;
     let techniques = techniques::read(&arguments.techniques, arguments.scene.view.kernel)?;
-    let setting = scene::load(&arguments.scene)?;
-    let shorter = setting.resolution[0].min(setting.resolution[1]);
+    let shot = scene::load(&arguments.scene)?;
+    let shorter = shot.resolution[0].min(shot.resolution[1]);
     if !(1..=shorter).contains(&arguments.stride) {
         bail!("--stride {}: allowed are 1 to {shorter}, the shorter side of the picture", arguments.stride);
     }
     let gpu = Gpu::new()?;
     let request = Request {
-        setting,
+        shot,
         path: path(arguments.path),
         frames: arguments.frames,
         until: arguments.frames,

@@ -2,7 +2,7 @@
 
 use super::table;
 use antumbra::{Filter, ShadowMap, Size, technique};
-use antumbra_lab::{compare, gpu::Gpu};
+use antumbra_lab::{facts, gpu::Gpu, specs};
 use antumbra_scene::procedural;
 use anyhow::Result;
 use serde_json::json;
@@ -12,7 +12,7 @@ pub(crate) fn techniques(names: &[String], as_json: bool) -> Result<()> {
     let out = &mut io::stdout();
     let mut list = Vec::new();
     let all = if names.is_empty() { &["all".to_string()] } else { names };
-    for mut technique in compare::techniques(all, Filter::default().kernel)? {
+    for mut technique in specs::techniques(all, Filter::default().kernel)? {
         let page = technique.page();
         let parameters = technique.parameters();
         if as_json {
@@ -73,7 +73,7 @@ pub(crate) fn scenes(as_json: bool) -> Result<()> {
 
 pub(crate) fn adapter(as_json: bool) -> Result<()> {
     let gpu = Gpu::new()?;
-    let facts = compare::adapter_facts(&gpu);
+    let adapter = facts::adapter(&gpu);
     let mut choices = Vec::new();
     for technique in technique::all() {
         let shadows = ShadowMap::new(&gpu.device, technique.as_ref(), Size::square(64));
@@ -85,16 +85,16 @@ pub(crate) fn adapter(as_json: bool) -> Result<()> {
     if as_json {
         let choices: serde_json::Map<_, _> =
             choices.into_iter().map(|(name, lines)| (name.into(), json!(lines))).collect();
-        let all = json!({ "adapter": facts, "missing_features": missing, "choices": choices });
+        let all = json!({ "adapter": adapter, "missing_features": missing, "choices": choices });
         writeln!(out, "{}", serde_json::to_string_pretty(&all)?)?;
         return Ok(());
     }
     writeln!(
         out,
         "adapter   {} ({})\ndriver    {}\nbackend   {}",
-        facts.name, facts.device_type, facts.driver, facts.backend
+        adapter.name, adapter.device_type, adapter.driver, adapter.backend
     )?;
-    writeln!(out, "features  {}", facts.features.join(", "))?;
+    writeln!(out, "features  {}", adapter.features.join(", "))?;
     writeln!(out, "missing   {}", if missing.is_empty() { "none".into() } else { missing.join(", ") })?;
     let limits = gpu.device.limits();
     writeln!(

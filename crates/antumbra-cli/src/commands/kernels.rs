@@ -10,7 +10,7 @@ use antumbra_lab::{
     compare::{self, Request},
     gpu::Gpu,
     results::{LeftOut, TechniqueResult},
-    setting::Setting,
+    shot::Shot,
     timing,
 };
 use anyhow::{Result, bail};
@@ -103,18 +103,18 @@ pub(crate) fn run(arguments: &Kernels) -> Result<()> {
         scene::check_view(&ViewArguments { kernel, ..arguments.scene.view.clone() })?;
     }
     scene::check(&arguments.scene)?;
-    let setting = scene::load(&arguments.scene)?;
+    let shot = scene::load(&arguments.scene)?;
     let gpu = Gpu::new()?;
     let widest = arguments.kernels.iter().copied().max().unwrap_or(1);
     let work = (arguments.techniques.len(), arguments.rounds);
-    let bar = Bar::new(progress::comparison(&gpu, setting.resolution, (widest, arguments.grid), work));
+    let bar = Bar::new(progress::comparison(&gpu, shot.resolution, (widest, arguments.grid), work));
     for (part, &kernel) in arguments.kernels.iter().enumerate() {
         bar.part(part, arguments.kernels.len());
         // Some kernels are odd only.
         let takes = |spec: &&String| techniques::read(&[(*spec).clone()], kernel).is_ok();
         let specs: Vec<String> = arguments.techniques.iter().filter(takes).cloned().collect();
         let request = Request {
-            setting: Setting { kernel, ..setting.clone() },
+            shot: Shot { kernel, ..shot.clone() },
             techniques: techniques::read(&specs, kernel)?,
             grid: arguments.grid,
             rounds: arguments.rounds,

@@ -7,7 +7,7 @@ use antumbra_lab::{
     files,
     gpu::Gpu,
     maps::{self, Picture, Sheet},
-    setting::Setup,
+    session::Session,
 };
 use anyhow::{Result, bail};
 use serde_json::{Value, json};
@@ -26,14 +26,10 @@ pub(crate) fn run(arguments: &Maps) -> Result<()> {
     if techniques.len() > 1 {
         bail!("--technique {}: maps takes one technique", arguments.technique);
     }
-    let setting = scene::load(&arguments.scene)?;
+    let shot = scene::load(&arguments.scene)?;
     let gpu = Gpu::new()?;
-    let Setup { stage, contestants, views, .. } = setting.set_up(&gpu, &techniques)?;
-    let Some(contestant) = contestants.first() else { bail!("no technique was named") };
-    let shadows = &contestant.shadows;
-    let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    shadows.encode(&mut encoder, |pass| stage.draw_casters(&contestant.casters, pass))?;
-    gpu.finish(encoder)?;
+    let session = Session::new(&gpu, &shot, &techniques)?;
+    let technique = session.prepared().first().map(|prepared| technique::spec(prepared.shadows.technique()));
     let mut written = Vec::new();
     let folder = files::write_folder(&arguments.output, |folder| -> Result<()> {
         let mut sheet = Sheet::default();
@@ -44,11 +40,7 @@ pub(crate) fn run(arguments: &Maps) -> Result<()> {
             written.push((file, picture.scale, picture.range));
             Ok(())
         };
-        for (number, view) in views.iter().enumerate() {
-            let name = maps::cascade_prefix(&views, number) + "depth";
-            take(maps::depth(&gpu, &stage, view, [setting.map_size; 2], &name)?)?;
-        }
-        maps::pictures(&gpu, shadows, arguments.level, &mut take)?;
+        maps::pictures(&gpu, &session, arguments.level, &mut take)?;
         folder.write(SHEET, &sheet.image().to_png()?)?;
         let pictures: Vec<Value> = written
             .iter()
@@ -57,12 +49,12 @@ pub(crate) fn run(arguments: &Maps) -> Result<()> {
         let names = written.iter().map(|(file, ..)| file.as_str()).chain([SHEET]);
         let index = json!({
             "schema": "antumbra-maps/1",
-            "scene": setting.name,
-            "technique": technique::spec(shadows.technique()),
-            "size": setting.map_size,
+            "scene": shot.name,
+            "technique": technique,
+            "size": shot.map_size,
             "level": arguments.level,
-            "cascades": views.len(),
-            "bias": setting.bias.to_string(),
+            "cascades": session.views().len(),
+            "bias": shot.bias.to_string(),
             "pictures": pictures,
             "files": names.collect::<Vec<_>>(),
         });

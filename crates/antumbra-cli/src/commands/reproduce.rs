@@ -2,8 +2,10 @@
 
 use super::table;
 use crate::{arguments::Reproduce, names, progress::Bar};
-use antumbra_lab::compare::Progress;
-use antumbra_reproduce::{Done, Options, catalogue, results::Record, target::Target, verdict::Outcome};
+use antumbra_lab::progress::Progress;
+use antumbra_reproduce::{
+    Options, RunObserver, catalogue, results::Record, target::Target, verdict::Outcome,
+};
 use anyhow::{Result, bail};
 use std::io::{self, Write};
 
@@ -99,7 +101,7 @@ impl Progress for Watch {
     }
 }
 
-impl Done for Watch {
+impl RunObserver for Watch {
     fn total(&self, target: &str, share: f64, seconds_left: f64) {
         self.bar.total(share, seconds_left);
         self.bar.prefix(target);

@@ -1,84 +1,65 @@
 //! The truths of a comparison, and the parts of the picture that are scored on their own.
 
-use super::{Progress, Request, ideal_kernel};
 use crate::{
     gpu::Gpu,
     metrics,
-    plane::Plane,
-    regions::{Region, regions},
+    progress::Progress,
+    readback,
+    regions::Region,
     results::{TruthFacts, TruthImages},
-    stage::Stage,
+    session::Session,
+    truth::{TracedShot, Truth, TruthImage},
 };
-use antumbra::View;
-use antumbra_truth::{Coverage, CoverageTolerance, Hit, Visibility};
+use antumbra_truth::{Coverage, CoverageTolerance, Hit};
 use anyhow::Result;
-use glam::DVec3;
 use std::{collections::BTreeMap, time::Instant};
+
+/// Distance to a caster in contact, as a share of the depth range: wider than the ramp of a 16-term Fourier
+/// series.
+const NEAR: f64 = 0.05;
 
 /// Truths and masks.
 #[derive(Debug)]
 pub(super) struct Truths {
-    pub(super) hard: Truth,
-    pub(super) light_space: Truth,
-    pub(super) screen_space: Truth,
+    pub(super) hard: TruthImage,
+    pub(super) light_space: TruthImage,
+    pub(super) screen_space: TruthImage,
     pub(super) regions: Vec<Region>,
     pub(super) facts: TruthFacts,
 }
 
-/// One truth as scores take it.
-#[derive(Debug)]
-pub(super) struct Truth {
-    pub(super) plane: Plane,
-    pub(super) shadowable: Vec<bool>,
-}
-
-impl Truth {
-    fn new(visibility: Visibility) -> Result<Self> {
-        let Visibility { width, height, values, shadowable } = visibility;
-        Ok(Self { plane: Plane::new(width, height, values)?, shadowable })
-    }
-}
-
-/// Traces everything; adds the truths' pictures to `images`.
+/// Traces everything; adds the truths' pictures to `images`. `grid` is the number of rays per pixel of the
+/// screen-space ideal, along one side.
 pub(super) fn trace(
     gpu: &Gpu,
-    request: &Request,
-    stage: &Stage,
-    views: &[View],
+    session: &Session<'_>,
+    grid: u32,
     progress: &dyn Progress,
     images: &mut BTreeMap<String, Vec<u8>>,
 ) -> Result<Truths> {
-    let setting = &request.setting;
-    let (light, geometry) = (&setting.light, &setting.geometry);
-    let maps = setting.map_views(views, setting.kernel)?;
+    let (shot, views) = (session.shot(), session.views());
     let mut clock = Clock::start();
     progress.step("truth: build");
-    let tracer = setting.tracer()?;
-    let rays = setting.rays()?;
+    let traced = TracedShot::new(shot)?;
     let seconds_build = clock.lap();
     progress.step("truth: hard");
-    let hard = tracer.hard(&rays, light);
+    let hard = traced.trace(Truth::Hard, views, progress)?;
     let seconds_hard = clock.lap();
     progress.step("truth: coverage");
-    let hits = tracer.primary(&rays);
-    let coverage =
-        tracer.coverage(&rays, &hits, &stage.triangle_numbers(gpu, geometry)?, CoverageTolerance::default());
-    // A twentieth of the depth range: wider than the ramp of a 16-term Fourier series.
-    let near = |point: DVec3| 0.05 * f64::from(maps.view(point).depth_world);
-    let regions = regions(&tracer, &hits, &hard.shadowable, light, &near);
+    let hits = traced.tracer.primary(&traced.rays);
+    let ids = readback::triangle_ids(gpu, session.scene(), &shot.geometry)?;
+    let coverage = traced.tracer.coverage(&traced.rays, &hits, &ids, CoverageTolerance::default());
+    let regions = traced.regions(&hits, &hard.shadowable, views, NEAR)?;
     progress.step("truth: light-space ideal");
     clock.lap();
-    let kernel = ideal_kernel(setting.kernel)?;
-    let light_space = tracer.light_space_ideal(&rays, light, &kernel, &maps, &|s| progress.share(s));
+    let light_space = traced.trace(Truth::LightSpace(shot.kernel), views, progress)?;
     let seconds_light_space = clock.lap();
     progress.step("truth: screen-space ideal");
-    let screen_space = tracer.supersampled(&rays, light, request.grid, &|s| progress.share(s));
+    let screen_space = traced.trace(Truth::ScreenSpace(grid), views, progress)?;
     let seconds_screen_space = clock.lap();
-    let [hard, light_space, screen_space] =
-        [Truth::new(hard)?, Truth::new(light_space)?, Truth::new(screen_space)?];
-    let mut save = |name: &str, truth: &Truth| -> Result<String> {
+    let mut save = |name: &str, truth: &TruthImage| -> Result<String> {
         let file = format!("truth-{name}.png");
-        images.insert(file.clone(), truth.plane.to_gray_png()?);
+        images.insert(file.clone(), truth.image.to_gray_png()?);
         Ok(file)
     };
     let facts = TruthFacts {
@@ -89,7 +70,7 @@ pub(super) fn trace(
         coverage_agreement: coverage.agreement(),
         coverage_explained: coverage_explained(&coverage, &hits),
         shadowable_pixels: hard.shadowable.iter().filter(|s| **s).count() as u64,
-        no_shadow: metrics::no_shadow_baseline(&hard.plane, &hard.shadowable)?.heard(),
+        no_shadow: metrics::no_shadow_baseline(&hard.image, &hard.shadowable)?.heard(),
         images: TruthImages {
             hard: save("hard", &hard)?,
             light_space: save("light-space", &light_space)?,

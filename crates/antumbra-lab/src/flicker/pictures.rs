@@ -1,12 +1,12 @@
 //! What one sees: a part of the picture as a film, as a strip, and one row of it over time.
 
-use super::{Request, truths::Moment};
+use super::{Request, truths::FrameSample};
 use crate::{
     animation,
-    compare::Contestant,
+    image::{Rgba8Image, crop},
     motion::Path,
     paint::{self, Anchor, Colour, Letters, WHITE},
-    plane::{Rgba8Image, crop},
+    prepared::Prepared,
 };
 use antumbra::technique;
 use anyhow::Result;
@@ -56,20 +56,16 @@ pub(super) struct Pictures {
 impl Pictures {
     /// Chooses the part with most edges of shadows in the first frame; where the camera moves away, the
     /// middle.
-    pub(super) fn new(
-        request: &Request,
-        first: &Moment,
-        resolution: [u32; 2],
-        contestants: &[Contestant],
-    ) -> Self {
-        let edges = edges(&first.right.hard, resolution);
+    pub(super) fn new(request: &Request, first: &FrameSample, prepared: &[Prepared]) -> Self {
+        let resolution = request.shot.resolution;
+        let edges = edges(&first.truth.hard, resolution);
         let [width, height] = [0, 1].map(|k| WINDOW[k].min(resolution[k]));
         let centre = [(resolution[0] - width) / 2, (resolution[1] - height) / 2];
         let [left, top] = match request.path {
             Path::Recede => centre,
             _ => busiest(&edges, resolution, [width, height]),
         };
-        let specs = contestants.iter().map(|c| technique::spec(c.shadows.technique()));
+        let specs = prepared.iter().map(|c| technique::spec(c.shadows.technique()));
         let panels = std::iter::once("truth".to_string()).chain(specs);
         Self {
             resolution,
@@ -78,10 +74,10 @@ impl Pictures {
         }
     }
 
-    pub(super) fn add(&mut self, moment: &Moment) {
-        let truth: Vec<f32> = moment.right.hard.iter().map(|v| v.unwrap_or(0.0)).collect();
-        for (panel, values) in self.panels.iter_mut().zip(std::iter::once(&truth).chain(&moment.answers)) {
-            let counted = moment.right.hard.iter().zip(values);
+    pub(super) fn add(&mut self, sample: &FrameSample) {
+        let truth: Vec<f32> = sample.truth.hard.iter().map(|v| v.unwrap_or(0.0)).collect();
+        for (panel, values) in self.panels.iter_mut().zip(std::iter::once(&truth).chain(&sample.answers)) {
+            let counted = sample.truth.hard.iter().zip(values);
             let bytes: Vec<u8> =
                 counted.map(|(truth, v)| truth.map_or(UNCOUNTED, |_| (v * 255.0).round() as u8)).collect();
             // The window lies inside: it was chosen so.

@@ -2,11 +2,11 @@
 
 use super::{
     Measured, Promise, Request, TechniqueFlicker,
-    truths::{Moment, Right, Truths},
+    truths::{FrameSample, FrameTruth, Truths},
 };
 use crate::{
-    compare::Contestant,
-    plane::{Rgba8Image, diverging},
+    image::{Rgba8Image, diverging},
+    prepared::Prepared,
     report::file_stem,
 };
 use antumbra::technique;
@@ -93,37 +93,37 @@ impl Series {
         }
     }
 
-    /// A pair of frames; `right` and `answers` belong to the points of `was` under the light of `now`.
+    /// A pair of frames; `points` and `answers` belong to the points of `was` under the light of `now`.
     pub(super) fn add(
         &mut self,
         truths: &Truths<'_>,
-        was: &Moment,
-        now: &Moment,
-        right: &Right,
+        was: &FrameSample,
+        now: &FrameSample,
+        points: &FrameTruth,
         answers: &[Vec<f32>],
     ) {
         self.pairs += 1;
-        let both = was.right.hard.iter().zip(&now.right.hard).map(|(a, b)| a.is_some() && b.is_some());
+        let both = was.truth.hard.iter().zip(&now.truth.hard).map(|(a, b)| a.is_some() && b.is_some());
         self.seen.iter_mut().zip(both).for_each(|(seen, both)| *seen += u32::from(both));
-        let hits = now.right.hits.iter().zip(&now.right.agrees).filter(|(hit, _)| hit.is_hit());
+        let hits = now.truth.hits.iter().zip(&now.truth.agrees).filter(|(hit, _)| hit.is_hit());
         self.agree.add(tally(hits.map(|(_, agrees)| Some(f64::from(u8::from(*agrees))))));
-        let sharp = |right: &Right| -> Vec<Option<f32>> { truths.chosen(&right.hard) };
+        let sharp = |truth: &FrameTruth| -> Vec<Option<f32>> { truths.chosen(&truth.hard) };
         let ideal =
-            |right: &Right| -> Vec<f32> { right.light_space.iter().map(|v| v.unwrap_or(0.0)).collect() };
-        let (a, b) = (ideal(&was.right), ideal(&now.right));
-        self.ideal.add(tally(change_of_error((&a, &sharp(&was.right)), (&b, &sharp(&now.right)))));
+            |truth: &FrameTruth| -> Vec<f32> { truth.light_space.iter().map(|v| v.unwrap_or(0.0)).collect() };
+        let (a, b) = (ideal(&was.truth), ideal(&now.truth));
+        self.ideal.add(tally(change_of_error((&a, &sharp(&was.truth)), (&b, &sharp(&now.truth)))));
         for (i, single) in self.singles.iter_mut().enumerate() {
             let (old, new, point) = (&was.answers[i], &now.answers[i], &answers[i]);
-            let changes = change_of_error((old, &was.right.hard), (new, &now.right.hard));
+            let changes = change_of_error((old, &was.truth.hard), (new, &now.truth.hard));
             for (heat, change) in single.heat.iter_mut().zip(changes) {
                 *heat += change.unwrap_or(0.0);
             }
             for promise in IN_PICTURE {
-                let pair = measured(truths, promise, (old, &was.right), (new, &now.right));
+                let pair = measured(truths, promise, (old, &was.truth), (new, &now.truth));
                 single.flicker.entry(promise).or_default().push(pair);
             }
             for promise in ON_SURFACES {
-                let pair = measured(truths, promise, (old, &was.right), (point, right));
+                let pair = measured(truths, promise, (old, &was.truth), (point, points));
                 single.crawl.entry(promise).or_default().push(pair);
             }
         }
@@ -148,15 +148,15 @@ impl Series {
     pub(super) fn results(
         &self,
         request: &Request,
-        contestants: &[Contestant],
+        prepared: &[Prepared],
         images: &mut BTreeMap<String, Vec<u8>>,
     ) -> Result<(Vec<TechniqueFlicker>, Vec<String>)> {
-        let pages = || contestants.iter().map(|c| c.shadows.technique().page());
+        let pages = || prepared.iter().map(|c| c.shadows.technique().page());
         let hard = pages().position(|page| page.name == "hard").map(|i| &self.singles[i]);
         let mut files = Vec::new();
         let mut techniques = Vec::new();
-        for (single, contestant) in self.singles.iter().zip(contestants) {
-            let technique = contestant.shadows.technique();
+        for (single, prepared) in self.singles.iter().zip(prepared) {
+            let technique = prepared.shadows.technique();
             let (page, spec) = (technique.page(), technique::spec(technique));
             let promise = Promise::of(technique, request.path);
             let own = mean(&single.flicker, promise);
@@ -194,7 +194,12 @@ impl Series {
     }
 }
 
-fn measured(truths: &Truths<'_>, promise: Promise, was: (&[f32], &Right), now: (&[f32], &Right)) -> Tally {
+fn measured(
+    truths: &Truths<'_>,
+    promise: Promise,
+    was: (&[f32], &FrameTruth),
+    now: (&[f32], &FrameTruth),
+) -> Tally {
     if promise == Promise::Hard {
         return tally(change_of_error((was.0, &was.1.hard), (now.0, &now.1.hard)));
     }

@@ -1,14 +1,14 @@
 //! What is right in each frame, and at the points of the frame before.
 
 use super::{Promise, Request};
-use crate::{compare::ideal_kernel, motion::Frame, views::MapViews};
+use crate::{map_views::MapViews, motion::Frame, truth::ideal_kernel};
 use antumbra_truth::{CameraRays, Hit, Tracer};
 use anyhow::{Result, bail};
 use glam::Vec3;
 
 /// Visibility as it should be; `None` where a pixel is not shadowable or does not count.
 #[derive(Debug, Clone)]
-pub(super) struct Right {
+pub(super) struct FrameTruth {
     /// What each pixel sees.
     pub(super) hits: Vec<Hit>,
     /// Whether the rasteriser sees the same point.
@@ -23,8 +23,8 @@ pub(super) struct Right {
 
 /// One frame: what is right, and what each technique answered, pixel by pixel.
 #[derive(Debug)]
-pub(super) struct Moment {
-    pub(super) right: Right,
+pub(super) struct FrameSample {
+    pub(super) truth: FrameTruth,
     pub(super) answers: Vec<Vec<f32>>,
 }
 
@@ -40,7 +40,7 @@ pub(super) struct Truths<'a> {
 
 impl<'a> Truths<'a> {
     pub(super) fn new(tracer: &'a Tracer<'a>, request: &Request) -> Result<Self> {
-        let [width, height] = request.setting.resolution;
+        let [width, height] = request.shot.resolution;
         if !(1..=width.min(height)).contains(&request.stride) {
             bail!(
                 "a stride of {} pixels: allowed are 1 to {}, the shorter side of the picture",
@@ -54,16 +54,11 @@ impl<'a> Truths<'a> {
         let chosen = rows.flat_map(|y| (first..width).step_by(step).map(move |x| (y * width + x) as usize));
         Ok(Self {
             tracer,
-            resolution: request.setting.resolution,
-            kernel: ideal_kernel(request.setting.kernel)?,
+            resolution: request.shot.resolution,
+            kernel: ideal_kernel(request.shot.kernel)?,
             grid: request.grid,
             chosen: chosen.collect(),
         })
-    }
-
-    /// Pixels across and down.
-    pub(super) fn size(&self) -> [u32; 2] {
-        self.resolution
     }
 
     /// The entries of chosen pixels.
@@ -72,7 +67,12 @@ impl<'a> Truths<'a> {
     }
 
     /// What is right in a frame; `drawn` is where the rasteriser's surfaces are, relative to the eye.
-    pub(super) fn right(&self, frame: &Frame, maps: &MapViews, drawn: &[Option<Vec3>]) -> Result<Right> {
+    pub(super) fn of_frame(
+        &self,
+        frame: &Frame,
+        maps: &MapViews,
+        drawn: &[Option<Vec3>],
+    ) -> Result<FrameTruth> {
         let [width, height] = self.resolution;
         let rays = CameraRays::new(&frame.camera, width, height)?;
         let hits = self.tracer.primary(&rays);
@@ -91,7 +91,7 @@ impl<'a> Truths<'a> {
     }
 
     /// What is right at the points of another frame under this frame's light. There is no screen there.
-    pub(super) fn right_at(&self, points: &Right, frame: &Frame, maps: &MapViews) -> Right {
+    pub(super) fn at_points(&self, points: &FrameTruth, frame: &Frame, maps: &MapViews) -> FrameTruth {
         self.under(frame, maps, points.hits.clone(), points.agrees.clone(), points.screen_space.clone())
     }
 
@@ -102,7 +102,7 @@ impl<'a> Truths<'a> {
         hits: Vec<Hit>,
         agrees: Vec<bool>,
         mut screen_space: Vec<Option<f32>>,
-    ) -> Right {
+    ) -> FrameTruth {
         let drop = |values: &mut [Option<f32>], agrees: &[bool]| {
             values
                 .iter_mut()
@@ -120,11 +120,11 @@ impl<'a> Truths<'a> {
         for (value, centre) in screen_space.iter_mut().zip(self.chosen(&hard)) {
             *value = value.filter(|_| centre.is_some());
         }
-        Right { hits, agrees, hard, light_space, screen_space }
+        FrameTruth { hits, agrees, hard, light_space, screen_space }
     }
 }
 
-impl Right {
+impl FrameTruth {
     /// One of the truths.
     pub(super) fn of(&self, promise: Promise) -> &[Option<f32>] {
         match promise {

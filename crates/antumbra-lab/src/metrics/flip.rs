@@ -7,7 +7,7 @@
 //! shadowable are filled with 1 in both images, so that they add no difference of their own.
 
 use super::convolve::{Border, Field, gaussian};
-use crate::plane::Plane;
+use crate::image::GrayImage;
 
 /// The paper's standard viewing condition.
 const PIXELS_PER_DEGREE: f64 = 67.0;
@@ -22,14 +22,14 @@ const FEATURE_WIDTH: f64 = 0.082;
 const LARGEST_DISTANCE: f32 = 41.276_1;
 
 /// Mean over shadowable pixels, 0..1; 0 for equal images.
-pub(super) fn mean(test: &Plane, truth: &Plane, shadowable: &[bool]) -> f64 {
+pub(super) fn mean(test: &GrayImage, truth: &GrayImage, shadowable: &[bool]) -> f64 {
     let counted = map(test, truth, shadowable).into_iter().zip(shadowable).filter(|&(_, &s)| s);
     let (sum, pixels) = counted.fold((0.0, 0.0), |(sum, n), (v, _)| (sum + f64::from(v), n + 1.0));
     sum / pixels
 }
 
-fn map(test: &Plane, truth: &Plane, shadowable: &[bool]) -> Vec<f32> {
-    let fill = |plane: &Plane| {
+fn map(test: &GrayImage, truth: &GrayImage, shadowable: &[bool]) -> Vec<f32> {
+    let fill = |plane: &GrayImage| {
         let values = plane.values.iter().zip(shadowable);
         let values = values.map(|(&v, &s)| if s { v.clamp(0.0, 1.0) } else { 1.0 }).collect();
         Field { width: plane.width as usize, values }
@@ -97,14 +97,14 @@ fn balance(weights: Vec<f64>) -> Vec<f32> {
 mod tests {
     use super::*;
 
-    fn disc(soft: f32) -> Plane {
-        Plane::from_fn(96, 64, |x, y| {
+    fn disc(soft: f32) -> GrayImage {
+        GrayImage::from_fn(96, 64, |x, y| {
             let d = (x as f32 - 48.0).hypot(y as f32 - 32.0) - 20.0;
             if soft > 0.0 { (d / soft + 0.5).clamp(0.0, 1.0) } else { f32::from(u8::from(d > 0.0)) }
         })
     }
 
-    fn against_disc(test: &Plane) -> f64 {
+    fn against_disc(test: &GrayImage) -> f64 {
         mean(test, &disc(0.0), &[true; 96 * 64])
     }
 
@@ -115,19 +115,19 @@ mod tests {
         let near = |ours: f64, theirs: f64| assert!((ours - theirs).abs() < 1e-4, "{ours} is not {theirs}");
         near(against_disc(&disc(8.0)), 0.106_495);
         near(
-            against_disc(&Plane::from_fn(96, 64, |x, y| disc(0.0).get((x + 95) % 96, y).unwrap())),
+            against_disc(&GrayImage::from_fn(96, 64, |x, y| disc(0.0).get((x + 95) % 96, y).unwrap())),
             0.046_319,
         );
-        let bands = Plane::from_fn(96, 64, |x, y| 0.5 + 0.5 * (x as f32 * 0.7 + y as f32 * 0.3).sin());
+        let bands = GrayImage::from_fn(96, 64, |x, y| 0.5 + 0.5 * (x as f32 * 0.7 + y as f32 * 0.3).sin());
         near(against_disc(&bands), 0.760_872);
-        near(against_disc(&Plane::filled(96, 64, 1.0)), 0.238_659);
-        near(against_disc(&Plane::from_fn(96, 64, |x, _| x as f32 / 95.0)), 0.690_380);
+        near(against_disc(&GrayImage::filled(96, 64, 1.0)), 0.238_659);
+        near(against_disc(&GrayImage::from_fn(96, 64, |x, _| x as f32 / 95.0)), 0.690_380);
     }
 
     #[test]
     fn equal_images_score_zero_and_black_against_white_one() {
         assert_eq!(against_disc(&disc(0.0)), 0.0);
-        let largest = mean(&Plane::filled(30, 30, 0.0), &Plane::filled(30, 30, 1.0), &[true; 900]);
+        let largest = mean(&GrayImage::filled(30, 30, 0.0), &GrayImage::filled(30, 30, 1.0), &[true; 900]);
         // Lightness alone: 100^0.7 of the largest colour distance.
         assert!((largest - f64::from(remap(100.0_f32.powf(QC)))).abs() < 1e-4, "{largest}");
     }

@@ -5,7 +5,7 @@
 //! is scaled to sum 1 over the rest, at the image's border likewise.
 
 use super::convolve::{Border, Field, gaussian};
-use crate::plane::Plane;
+use crate::image::GrayImage;
 
 const RADIUS: usize = 5;
 const SIGMA: f64 = 1.5;
@@ -13,14 +13,14 @@ const C1: f32 = 0.01 * 0.01;
 const C2: f32 = 0.03 * 0.03;
 
 /// Mean over shadowable pixels; 1 for equal images.
-pub(super) fn mean(test: &Plane, truth: &Plane, shadowable: &[bool]) -> f64 {
+pub(super) fn mean(test: &GrayImage, truth: &GrayImage, shadowable: &[bool]) -> f64 {
     let counted = || map(test, truth, shadowable).into_iter().zip(shadowable).filter(|&(_, &s)| s);
     let (sum, pixels) = counted().fold((0.0, 0.0), |(sum, n), (v, _)| (sum + f64::from(v), n + 1.0));
     sum / pixels
 }
 
 /// Structural similarity of each pixel's window; only shadowable pixels mean anything.
-fn map(test: &Plane, truth: &Plane, shadowable: &[bool]) -> Vec<f32> {
+fn map(test: &GrayImage, truth: &GrayImage, shadowable: &[bool]) -> Vec<f32> {
     let width = test.width as usize;
     let weight = Field { width, values: shadowable.iter().map(|&s| f32::from(u8::from(s))).collect() };
     let kernel = gaussian(SIGMA, RADIUS);
@@ -46,8 +46,8 @@ fn map(test: &Plane, truth: &Plane, shadowable: &[bool]) -> Vec<f32> {
 mod tests {
     use super::*;
 
-    fn disc(soft: f32) -> Plane {
-        Plane::from_fn(96, 64, |x, y| {
+    fn disc(soft: f32) -> GrayImage {
+        GrayImage::from_fn(96, 64, |x, y| {
             let d = (x as f32 - 48.0).hypot(y as f32 - 32.0) - 20.0;
             if soft > 0.0 { (d / soft + 0.5).clamp(0.0, 1.0) } else { f32::from(u8::from(d > 0.0)) }
         })
@@ -55,7 +55,7 @@ mod tests {
 
     /// Mean over the pixels whose window lies in the image: there, and only there, the reference
     /// and this module do the same.
-    fn interior(test: &Plane, truth: &Plane) -> f64 {
+    fn interior(test: &GrayImage, truth: &GrayImage) -> f64 {
         let map = map(test, truth, &[true; 96 * 64]);
         let inside = |i: &usize| (5..91).contains(&(i % 96)) && (5..59).contains(&(i / 96));
         let values: Vec<f64> = (0..map.len()).filter(inside).map(|i| f64::from(map[i])).collect();
@@ -69,14 +69,14 @@ mod tests {
         let near = |ours: f64, theirs: f64| assert!((ours - theirs).abs() < 1e-4, "{ours} is not {theirs}");
         let truth = disc(0.0);
         near(interior(&disc(8.0), &truth), 0.758_126);
-        near(interior(&Plane::filled(96, 64, 1.0), &truth), 0.593_941);
-        let bands = Plane::from_fn(96, 64, |x, y| 0.5 + 0.5 * (x as f32 * 0.7 + y as f32 * 0.3).sin());
+        near(interior(&GrayImage::filled(96, 64, 1.0), &truth), 0.593_941);
+        let bands = GrayImage::from_fn(96, 64, |x, y| 0.5 + 0.5 * (x as f32 * 0.7 + y as f32 * 0.3).sin());
         near(interior(&bands, &truth), 0.018_926);
     }
 
     #[test]
     fn constants_differ_by_the_luminance_term_only() {
-        let ssim = mean(&Plane::filled(20, 20, 0.5), &Plane::filled(20, 20, 1.0), &[true; 400]);
+        let ssim = mean(&GrayImage::filled(20, 20, 0.5), &GrayImage::filled(20, 20, 1.0), &[true; 400]);
         let by_hand = (2.0 * 0.5 + 1e-4) / (0.25 + 1.0 + 1e-4);
         assert!((ssim - by_hand).abs() < 1e-5, "{ssim} is not {by_hand}");
     }

@@ -3,7 +3,7 @@
 use super::column::{self, Better, Column};
 use super::text::{escape, percent, significant};
 use crate::classes::ClassShare;
-use crate::metrics::{FEWEST_DEEP, Score};
+use crate::metrics::{MIN_DEEP_PIXELS, Score};
 use crate::results::{Family, LeftOut, Results, TechniqueResult};
 use std::collections::BTreeSet;
 
@@ -142,7 +142,7 @@ fn cell(column: &Column, technique: &TechniqueResult, best: Option<f64>) -> Stri
 /// In place of a mean over too few pixels: how many there are.
 fn too_few(pixels: u64) -> String {
     format!(
-        "<span title=\"only {pixels} pixels; told from {FEWEST_DEEP} on\">– <small>({pixels})</small></span>"
+        "<span title=\"only {pixels} pixels; told from {MIN_DEEP_PIXELS} on\">– <small>({pixels})</small></span>"
     )
 }
 

@@ -3,7 +3,7 @@
 use super::table::family;
 use super::text::{escape, label};
 use super::{ReportError, column};
-use crate::plane::diverging;
+use crate::image::diverging;
 use crate::results::{Family, Results, TechniqueResult};
 use base64::{Engine, engine::general_purpose::STANDARD};
 use std::collections::{BTreeMap, BTreeSet};

@@ -6,12 +6,12 @@
 use antumbra::{Capacity, Kernel, Options, ShadowMap, Size, Technique, View, Weights, technique::Bias};
 use antumbra_lab::{
     gpu::Gpu,
-    lighting::{Lighting, Lookup},
+    image::GrayImage,
+    map_views,
     metrics::{self, Score},
-    plane::Plane,
-    stage::{Casters, Stage},
-    views,
+    readback,
 };
+use antumbra_render::{Casters, GpuScene, Lighting, Lookup, views};
 use antumbra_scene::{Camera, Geometry, Light, Scene};
 use antumbra_truth::{CameraRays, Coverage, CoverageTolerance, Tracer, Visibility};
 
@@ -19,13 +19,13 @@ use antumbra_truth::{CameraRays, Coverage, CoverageTolerance, Tracer, Visibility
 pub(crate) const KERNEL: u32 = 5;
 
 /// One picture of one scene.
-pub(crate) struct Shot {
+pub(crate) struct Picture {
     pub(crate) geometry: Geometry,
     pub(crate) camera: Camera,
     pub(crate) light: Light,
     pub(crate) resolution: [u32; 2],
     pub(crate) gpu: Gpu,
-    pub(crate) stage: Stage,
+    pub(crate) on_gpu: GpuScene,
     lighting: Lighting,
     /// What its maps have memory for: what the scene needs, unless a test wants otherwise.
     pub(crate) capacity: Capacity,
@@ -33,7 +33,7 @@ pub(crate) struct Shot {
     pub(crate) cutouts: bool,
 }
 
-impl Shot {
+impl Picture {
     /// The scene's own camera and light.
     pub(crate) fn new(gpu: &antumbra_testing::Gpu, scene: &Scene, resolution: [u32; 2]) -> Self {
         Self::with(gpu, scene, resolution, |_| ())
@@ -50,11 +50,11 @@ impl Shot {
         let gpu = Gpu::adopt(gpu.device.clone(), gpu.queue.clone(), gpu.info.clone());
         let (mut geometry, camera, light) = (scene.flatten(), scene.main_camera(), scene.main_light());
         change(&mut geometry);
-        let stage = Stage::new(&gpu, &geometry, &camera, &light, resolution).unwrap();
-        let lighting = Lighting::new(&gpu, &stage);
-        let capacity = stage.capacity();
-        let cutouts = stage.tells_cutouts();
-        Self { geometry, camera, light, resolution, gpu, stage, lighting, capacity, cutouts }
+        let on_gpu = GpuScene::new(&gpu, &geometry, &camera, &light, resolution).unwrap();
+        let lighting = Lighting::new(&gpu, &on_gpu);
+        let capacity = on_gpu.capacity();
+        let cutouts = on_gpu.tells_cutouts();
+        Self { geometry, camera, light, resolution, gpu, on_gpu, lighting, capacity, cutouts }
     }
 
     pub(crate) fn rays(&self) -> CameraRays {
@@ -64,9 +64,9 @@ impl Shot {
     /// Whether raster and rays see the same triangles.
     pub(crate) fn coverage(&self) -> Coverage {
         let (tracer, rays) = (Tracer::new(&self.geometry).unwrap(), self.rays());
-        let numbers = self.stage.triangle_numbers(&self.gpu, &self.geometry).unwrap();
-        assert_eq!(numbers.len(), rays.pixel_count());
-        tracer.coverage(&rays, &tracer.primary(&rays), &numbers, CoverageTolerance::default())
+        let ids = readback::triangle_ids(&self.gpu, &self.on_gpu, &self.geometry).unwrap();
+        assert_eq!(ids.len(), rays.pixel_count());
+        tracer.coverage(&rays, &tracer.primary(&rays), &ids, CoverageTolerance::default())
     }
 
     /// Shadow maps that share one view.
@@ -82,7 +82,7 @@ impl Shot {
         let mut maps: Vec<ShadowMap> = techniques.iter().map(new).collect();
         let all: Vec<&ShadowMap> = maps.iter().collect();
         let scene = self.geometry.bounds_around(self.camera.position).unwrap();
-        let view = views::fit(self.stage.camera_matrix(), scene, &self.light, 1, &all).unwrap()[0];
+        let view = views::fit(self.on_gpu.camera_matrix(), scene, &self.light, 1, &all).unwrap()[0];
         for map in &mut maps {
             map.prepare(&self.gpu.queue, &[view]).unwrap();
         }
@@ -90,19 +90,19 @@ impl Shot {
     }
 
     /// What one of them answers for every pixel.
-    pub(crate) fn visibility(&mut self, shadows: &ShadowMap) -> Plane {
-        let lookup = Lookup::new(&self.gpu, &self.stage, shadows);
+    pub(crate) fn visibility(&mut self, shadows: &ShadowMap) -> GrayImage {
+        let lookup = Lookup::new(&self.gpu, &self.on_gpu, shadows);
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
-        let casters = Casters::new(&self.gpu, &self.stage, shadows).unwrap();
-        shadows.encode(&mut encoder, |pass| self.stage.draw_casters(&casters, pass)).unwrap();
-        self.stage.encode_surfaces(&mut encoder, None);
-        self.lighting.encode_lookup(&mut encoder, &self.stage, &lookup, Some(shadows), None);
+        let casters = Casters::new(&self.gpu, &self.on_gpu, shadows).unwrap();
+        shadows.encode(&mut encoder, |pass| self.on_gpu.draw_casters(&casters, pass)).unwrap();
+        self.on_gpu.encode_surfaces(&mut encoder, None);
+        self.lighting.encode_lookup(&mut encoder, &self.on_gpu, &lookup, Some(shadows), None);
         self.gpu.finish(encoder).unwrap();
-        self.lighting.read_visibility(&self.gpu).unwrap()
+        readback::visibility(&self.gpu, &self.lighting).unwrap()
     }
 
     /// The same for a single technique.
-    pub(crate) fn answer(&mut self, technique: &dyn Technique, size: u32, bias: Bias) -> Plane {
+    pub(crate) fn answer(&mut self, technique: &dyn Technique, size: u32, bias: Bias) -> GrayImage {
         let (maps, _) = self.maps(&[technique], size, bias);
         self.visibility(&maps[0])
     }
@@ -115,12 +115,12 @@ impl Shot {
         let taps = Kernel::new(Weights::Gaussian, KERNEL, 0.0).taps;
         let kernel = antumbra_truth::Kernel::new(taps.iter().map(|w| f64::from(*w)).collect()).unwrap();
         let tracer = Tracer::new(&self.geometry).unwrap();
-        tracer.light_space_ideal(&self.rays(), &self.light, &kernel, &views::map_plane(view), &|_| ())
+        tracer.light_space_ideal(&self.rays(), &self.light, &kernel, &map_views::map_plane(view), &|_| ())
     }
 }
 
 /// An answer against a truth.
-pub(crate) fn score(test: &Plane, truth: &Visibility) -> Score {
-    let plane = Plane::new(truth.width, truth.height, truth.values.clone()).unwrap();
+pub(crate) fn score(test: &GrayImage, truth: &Visibility) -> Score {
+    let plane = GrayImage::new(truth.width, truth.height, truth.values.clone()).unwrap();
     metrics::score(test, &plane, &truth.shadowable).unwrap()
 }

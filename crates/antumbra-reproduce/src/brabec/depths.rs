@@ -1,14 +1,14 @@
 //! Levels of grey (sections 3 and 4), and depths of few bits (section 6).
 
 use crate::{
-    bench::Bench,
     gallery,
     page::{Cell, Page, Table, Unit},
     raster::difference,
-    study::Truth,
     verdict::{Verdict, at_least, at_most, more},
+    workbench::Workbench,
 };
 use antumbra::technique::{Bias, BiasTerms, Packed};
+use antumbra_lab::truth::Truth;
 use anyhow::Result;
 use std::collections::BTreeSet;
 
@@ -28,7 +28,7 @@ fn levels(visibility: &[f32]) -> usize {
     visibility.iter().map(|v| (v.clamp(0.0, 1.0) * 255.0).round() as u8).collect::<BTreeSet<_>>().len()
 }
 
-pub(super) fn grey_levels(bench: &Bench<'_>) -> Result<Page> {
+pub(super) fn grey_levels(bench: &Workbench<'_>) -> Result<Page> {
     let specs = LEVELS.map(|l| l.0);
     let study = bench.study(bench.shot("brabec", [800, 600]), bench.map(512), &specs)?;
     let truth = &bench.truths(&study, &[Truth::ScreenSpace(4)])?[0];
@@ -40,7 +40,7 @@ pub(super) fn grey_levels(bench: &Bench<'_>) -> Result<Page> {
     for (spec, name, paper) in LEVELS {
         let plane = study.look(spec)?.visibility()?;
         let seen: Vec<f32> =
-            plane.values.iter().zip(&truth.shadowable).filter(|(_, s)| **s).map(|(v, _)| *v).collect();
+            plane.values.iter().zip(&truth.truth.shadowable).filter(|(_, s)| **s).map(|(v, _)| *v).collect();
         let count = levels(&seen) as f64;
         let rmse = bench.score(&study, spec, truth, None)?.rmse;
         table.row(name, vec![Cell::ours(count, Unit::Number).paper(paper), Cell::ours(rmse, Unit::Number)]);
@@ -88,7 +88,7 @@ const PROJECTED: [(&str, &str); 4] = [
     ("hard", "32-bit floats"),
 ];
 
-pub(super) fn few_bits(bench: &Bench<'_>) -> Result<Page> {
+pub(super) fn few_bits(bench: &Workbench<'_>) -> Result<Page> {
     let floats = BiasTerms { depth_steps: 0.0, ..Bias::Auto.terms(&Packed::default()) };
     let groups = [
         ("linear depth, a bias made for floats", LINEAR, floats.into()),

@@ -1,10 +1,10 @@
 //! Figure 3: the step of the shadow test.
 
 use crate::{
-    bench::Bench,
     page::{Block, Cell, Page, Table, Unit},
     step::{Step, panel},
     verdict::{Verdict, at_least, at_most, less, more},
+    workbench::Workbench,
 };
 use anyhow::Result;
 
@@ -20,7 +20,7 @@ const ATTENUATED: &str = "csm.lift=none";
 const OFFSET: &str = "csm.lift=offset";
 const SCALED: &str = "csm.lift=scale";
 
-pub(super) fn figure_3(bench: &Bench<'_>) -> Result<Page> {
+pub(super) fn figure_3(bench: &Workbench<'_>) -> Result<Page> {
     let reach = [-REACH, REACH];
     let step = |spec: &str| Step::measure(bench, spec, reach);
     let plain = [step(PLAIN[0])?, step(PLAIN[1])?, step(PLAIN[2])?];

@@ -1,13 +1,13 @@
 //! Figures 1, 7 and 8: what filters do to aliasing.
 
 use crate::{
-    bench::Bench,
     gallery,
     page::{Cell, Page, Table, Tile, Unit},
     raster::difference,
-    study::Truth,
     verdict::{Verdict, at_most, less},
+    workbench::Workbench,
 };
+use antumbra_lab::truth::Truth;
 use anyhow::Result;
 
 /// How much farther than the scene's own the camera is.
@@ -19,7 +19,7 @@ const FIGURE_1: [(&str, &str); 4] = [
     ("csm.kernel=7,sampling=trilinear", "CSM, mip-mapped, 7×7"),
 ];
 
-pub(super) fn figure_1(bench: &Bench<'_>) -> Result<Page> {
+pub(super) fn figure_1(bench: &Workbench<'_>) -> Result<Page> {
     let shot = bench.shot("fence", [640, 480]).from(FAR);
     let study = bench.study(shot, bench.map(2048), &FIGURE_1.map(|f| f.0))?;
     let truth = &bench.truths(&study, &[Truth::ScreenSpace(8)])?[0];
@@ -61,7 +61,7 @@ const FIGURE_7: [(&str, &str); 6] = [
     ("csm.kernel=7,sampling=anisotropic", "(f) 7×7"),
 ];
 
-pub(super) fn figure_7(bench: &Bench<'_>) -> Result<Page> {
+pub(super) fn figure_7(bench: &Workbench<'_>) -> Result<Page> {
     let study = bench.study(bench.shot("trees", [800, 600]), bench.map(2048), &FIGURE_7.map(|f| f.0))?;
     let truth = &bench.truths(&study, &[Truth::ScreenSpace(4)])?[0];
     let mut table = Table::new("Against 16 rays per pixel.", &["filter", "RMSE", "SSIM"]);
@@ -100,7 +100,7 @@ fn recovered(pcf: f64, bilinear: f64, trilinear: f64) -> Verdict {
 const SIZES: [u32; 4] = [128, 256, 512, 1024];
 const KERNELS: [u32; 2] = [3, 7];
 
-pub(super) fn figure_8(bench: &Bench<'_>) -> Result<Page> {
+pub(super) fn figure_8(bench: &Workbench<'_>) -> Result<Page> {
     let mut page = Page::default();
     let mut table = Table::new(
         "RMSE to what rays see through the kernel, over the pixels that are partly lit there.",
@@ -115,7 +115,8 @@ pub(super) fn figure_8(bench: &Bench<'_>) -> Result<Page> {
             let study =
                 bench.study(bench.shot("spheres", [400, 300]), bench.map(size), &["hard", spec.as_str()])?;
             let ideal = &bench.truths(&study, &[Truth::LightSpace(kernel)])?[0];
-            let edges: Vec<bool> = ideal.plane.values.iter().map(|v| (0.02..0.98).contains(v)).collect();
+            let edges: Vec<bool> =
+                ideal.truth.image.values.iter().map(|v| (0.02..0.98).contains(v)).collect();
             for (row, spec) in rows.iter_mut().zip(["hard", spec.as_str()]) {
                 row.push(bench.score(&study, spec, ideal, Some(("penumbra", &edges)))?.rmse);
             }

@@ -1,14 +1,14 @@
 //! Figure 9: leaking.
 
 use crate::{
-    bench::Bench,
     gallery,
     page::{Cell, Page, Table, Unit},
     raster::difference,
-    study::Truth,
     verdict::{Verdict, less},
+    workbench::Workbench,
 };
-use antumbra_lab::plane::Plane;
+use antumbra_lab::image::GrayImage;
+use antumbra_lab::truth::Truth;
 use anyhow::Result;
 
 const SPECS: [&str; 2] = ["vsm.kernel=7,sampling=trilinear", "csm.kernel=7,sampling=trilinear"];
@@ -20,7 +20,7 @@ const DEEP: usize = 4;
 /// A VSM leaks from this visibility on.
 const LEAKS: f32 = 0.05;
 
-pub(super) fn figure_9(bench: &Bench<'_>) -> Result<Page> {
+pub(super) fn figure_9(bench: &Workbench<'_>) -> Result<Page> {
     let mut page = Page::default();
     let mut table = Table::new(
         "Mean visibility where the ideal is 0, and RMSE to the ideal of 7×7.",
@@ -33,9 +33,15 @@ pub(super) fn figure_9(bench: &Bench<'_>) -> Result<Page> {
         let contact = regions.get("contact").map(Vec::as_slice).unwrap_or_default();
         let [vsm, csm] = [study.look(SPECS[0])?, study.look(SPECS[1])?];
         let visible = [vsm.visibility()?.values, csm.visibility()?.values];
-        let shadow: Vec<bool> =
-            ideal.plane.values.iter().zip(&ideal.shadowable).map(|(v, s)| *s && *v == 0.0).collect();
-        let deep = deep(&ideal.plane, &ideal.shadowable);
+        let shadow: Vec<bool> = ideal
+            .truth
+            .image
+            .values
+            .iter()
+            .zip(&ideal.truth.shadowable)
+            .map(|(v, s)| *s && *v == 0.0)
+            .collect();
+        let deep = deep(&ideal.truth.image, &ideal.truth.shadowable);
         let leaking: Vec<bool> = (0..shadow.len())
             .map(|i| deep[i] && shadow[i] && visible[0][i] > LEAKS && contact.get(i) == Some(&false))
             .collect();
@@ -79,7 +85,7 @@ pub(super) fn figure_9(bench: &Bench<'_>) -> Result<Page> {
 
 /// Pixels with none nearby that can be lit and is: those that a filter of a pixel's footprint may not
 /// brighten either.
-fn deep(ideal: &Plane, shadowable: &[bool]) -> Vec<bool> {
+fn deep(ideal: &GrayImage, shadowable: &[bool]) -> Vec<bool> {
     let [width, height] = [ideal.width, ideal.height].map(|n| n as usize);
     let lit: Vec<bool> = ideal.values.iter().zip(shadowable).map(|(v, s)| *s && *v > 0.0).collect();
     let around = |at: usize, size: usize| at.saturating_sub(DEEP)..(at + DEEP + 1).min(size);
@@ -117,7 +123,7 @@ mod tests {
         assert_eq!(no_leaking("s", [None, None]).outcome(), Open);
         assert_eq!(mean(&[1.0, 0.5, 0.25], &[false, true, true]), Some(0.375));
         assert_eq!(mean(&[1.0], &[false]), None);
-        let ideal = Plane::from_fn(20, 1, |x, _| f32::from(u8::from(x == 10)));
+        let ideal = GrayImage::from_fn(20, 1, |x, _| f32::from(u8::from(x == 10)));
         let deep = deep(&ideal, &[true; 20]);
         assert_eq!([deep[5], deep[6], deep[14], deep[15]], [true, false, false, true]);
     }

@@ -1,9 +1,9 @@
 //! Figure 10: minification.
 
 use crate::{
-    bench::Bench,
     page::{Cell, Page, Table, Unit},
     verdict::{Verdict, less},
+    workbench::Workbench,
 };
 use antumbra_lab::{
     flicker::{FILM_FILE, Promise, ROW_FILE, STRIP_FILE},
@@ -21,7 +21,7 @@ const SPECS: [&str; 5] = [
 ];
 const FRAMES: u32 = 48;
 
-pub(super) fn figure_10(bench: &Bench<'_>) -> Result<Page> {
+pub(super) fn figure_10(bench: &Workbench<'_>) -> Result<Page> {
     let shot = bench.shot("fence", [480, 360]);
     let moving = bench.moving(shot, Path::Recede, [FRAMES; 2], bench.map(1024), &SPECS)?;
     let mut page = Page::default();

@@ -1,10 +1,10 @@
 //! Table 1: frame times.
 
 use crate::{
-    bench::Bench,
     numbers::steps,
     page::{Cell, Page, Table, Unit},
     verdict::{Verdict, more, same_order},
+    workbench::Workbench,
 };
 use anyhow::Result;
 
@@ -23,13 +23,13 @@ const PAPER: [(u32, u32, [f64; 4]); 9] = [
     (7, 16, [41.0, 38.0, 28.0, 14.0]),
 ];
 
-pub(super) fn table_1(bench: &Bench<'_>) -> Result<Page> {
+pub(super) fn table_1(bench: &Workbench<'_>) -> Result<Page> {
     let specs: Vec<String> = std::iter::once("pcf.kernel=1".to_string())
         .chain(PAPER.map(|(k, m, _)| format!("csm.terms={m},kernel={k},sampling=anisotropic")))
         .collect();
-    let entrants: Vec<(u32, &str)> =
+    let frames: Vec<(u32, &str)> =
         specs.iter().flat_map(|spec| SIZES.map(|size| (bench.map(size), spec.as_str()))).collect();
-    let times = bench.race(bench.shot("fence", [1024, 768]), &entrants, bench.rounds(3))?;
+    let times = bench.times(bench.shot("fence", [1024, 768]), &frames, bench.rounds(3))?;
     let times: Vec<f64> = times.iter().map(|t| t.frame.median_ms).collect();
     let (pcf, csm) = times.split_at(SIZES.len());
     let ours: Vec<[f64; 4]> = csm.chunks_exact(4).map(|row| [0, 1, 2, 3].map(|i| row[i] / pcf[i])).collect();

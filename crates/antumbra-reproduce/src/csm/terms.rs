@@ -1,14 +1,15 @@
 //! Figures 4, 5 and 6: what the series' settings do to shadows.
 
 use crate::{
-    bench::Bench,
     gallery,
     numbers::steps,
     page::{Cell, Page, Table, Tile, Unit},
     raster::difference,
-    study::{Study, Traced, Truth},
+    study::{Study, Traced},
     verdict::{Verdict, at_most, less, more},
+    workbench::Workbench,
 };
+use antumbra_lab::truth::Truth;
 use anyhow::Result;
 
 const OFFSET: &str = "csm.kernel=5,sampling=trilinear";
@@ -18,13 +19,13 @@ const NEAR: f64 = 0.05;
 /// The same for the ramp of 16 terms.
 const RAMP: f64 = 0.07;
 
-pub(super) fn figure_4(bench: &Bench<'_>) -> Result<Page> {
+pub(super) fn figure_4(bench: &Workbench<'_>) -> Result<Page> {
     let study = bench.study(bench.shot("blocks", [640, 480]), bench.map(1024), &[SCALE, OFFSET])?;
     let ideal = &bench.truths(&study, &[Truth::LightSpace(5)])?[0];
     let regions = bench.regions(&study, RAMP)?;
     let contact = regions.get("contact").map(Vec::as_slice).unwrap_or_default();
     // The ramp itself is no blur.
-    let edges: Vec<bool> = ideal.shadowable.iter().zip(contact).map(|(s, c)| *s && !c).collect();
+    let edges: Vec<bool> = ideal.truth.shadowable.iter().zip(contact).map(|(s, c)| *s && !c).collect();
     let mut table = Table::new(
         "Partly lit: share of pixels between 0.05 and 0.95, away from casters. Contact: mean visibility of shadowed pixels beside their \
          caster, where rays say 0.",
@@ -39,7 +40,7 @@ pub(super) fn figure_4(bench: &Bench<'_>) -> Result<Page> {
         table.row(name, cells.map(|(v, unit)| Cell::ours(v, unit)).into());
         found.push((soft, touch));
     }
-    table.row("rays, filtered 5×5", vec![Cell::ours(partly(&ideal.plane.values, &edges), Unit::Share)]);
+    table.row("rays, filtered 5×5", vec![Cell::ours(partly(&ideal.truth.image.values, &edges), Unit::Share)]);
     let mut page = Page::default();
     page.verdict(sharper(found[0].0, found[1].0));
     page.verdict(contact_limits(found[0].1, found[1].1));
@@ -81,7 +82,7 @@ const STORAGE: [(&str, &str); 3] = [
     ("32 bits", "csm.kernel=5,storage=float32,sampling=trilinear"),
 ];
 
-pub(super) fn figure_5(bench: &Bench<'_>) -> Result<Page> {
+pub(super) fn figure_5(bench: &Workbench<'_>) -> Result<Page> {
     let mut page = Page::default();
     let mut table = Table::new(
         "To 32 bits: RMSE and largest difference between the visibilities. To the ideal: RMSE to what rays see through \
@@ -95,7 +96,7 @@ pub(super) fn figure_5(bench: &Bench<'_>) -> Result<Page> {
         let mut found = Vec::new();
         for (bits, spec) in STORAGE {
             let values = study.look(spec)?.visibility()?.values;
-            let [rmse, largest] = apart(&values, &exact, &ideal.shadowable);
+            let [rmse, largest] = apart(&values, &exact, &ideal.truth.shadowable);
             let error = bench.score(&study, spec, ideal, None)?.rmse;
             let cells = [rmse, largest, error].map(|v| Cell::ours(v, Unit::Number));
             table.row(format!("{scene}: {bits}"), cells.into());
@@ -135,7 +136,7 @@ const TERMS: [u32; 6] = [1, 2, 4, 8, 16, 32];
 /// The other way to light surfaces, as sharp as the series is.
 const SCALED: &str = "csm.terms=4,attenuation=0,lift=scale,sampling=trilinear";
 
-pub(super) fn figure_6(bench: &Bench<'_>) -> Result<Page> {
+pub(super) fn figure_6(bench: &Workbench<'_>) -> Result<Page> {
     let specs = TERMS.map(|terms| format!("csm.terms={terms},sampling=trilinear"));
     let mut names: Vec<&str> = specs.iter().map(String::as_str).collect();
     names.push(SCALED);
@@ -191,7 +192,7 @@ pub(super) fn figure_6(bench: &Bench<'_>) -> Result<Page> {
 
 /// Leak beside casters, leak away from them, RMSE.
 fn at(
-    bench: &Bench<'_>,
+    bench: &Workbench<'_>,
     study: &Study,
     spec: &str,
     ideal: &Traced,

@@ -1,10 +1,10 @@
 //! Figure 2: the exponential step.
 
 use crate::{
-    bench::Bench,
     page::{Block, Cell, Page, Table, Unit},
     step::{Step, panel},
     verdict::{Verdict, less},
+    workbench::Workbench,
 };
 use anyhow::Result;
 
@@ -12,7 +12,7 @@ const DECAYS: [&str; 3] = ["esm.c=20", "esm.c=40", "esm.c=80"];
 /// The offset that the paper plots.
 const CSM: &str = "csm.attenuation=0,offset=0.032";
 
-pub(super) fn figure_2(bench: &Bench<'_>) -> Result<Page> {
+pub(super) fn figure_2(bench: &Workbench<'_>) -> Result<Page> {
     let reach = [-0.05, 0.15];
     let step = |spec: &str| Step::measure(bench, spec, reach);
     let decays = [step(DECAYS[0])?, step(DECAYS[1])?, step(DECAYS[2])?];

@@ -1,14 +1,15 @@
 //! Table 3, figures 5, 6 and 10: failing pixels.
 
 use crate::{
-    bench::Bench,
     gallery,
     numbers::steps,
     page::{Cell, Page, Table, Tile, Unit},
     raster::difference,
-    study::{Look, Study, Truth},
+    study::{Look, Study},
     verdict::{Verdict, at_least, at_most, less, more},
+    workbench::Workbench,
 };
+use antumbra_lab::truth::Truth;
 use anyhow::{Context, Result};
 
 /// Kernel, Z-Max, Threshold.
@@ -18,7 +19,7 @@ const PAPER: [(u32, f64, f64); 4] =
 const FAILED: &str = "assumption violated";
 
 /// The backyard with both classifiers and all kernels: Z-Max, then Threshold.
-fn study(bench: &Bench<'_>) -> Result<Study> {
+fn study(bench: &Workbench<'_>) -> Result<Study> {
     let zmax = PAPER.map(|(kernel, ..)| format!("esm.classifier=zmax,kernel={kernel},sampling=trilinear"));
     let threshold = PAPER.map(|(kernel, ..)| format!("esm.kernel={kernel},sampling=trilinear"));
     let specs: Vec<&str> = zmax.iter().chain(&threshold).map(String::as_str).collect();
@@ -36,7 +37,7 @@ fn shares(study: &Study) -> Result<[Vec<f64>; 2]> {
     Ok([all(zmax)?, all(threshold)?])
 }
 
-pub(super) fn figure_10(bench: &Bench<'_>) -> Result<Page> {
+pub(super) fn figure_10(bench: &Workbench<'_>) -> Result<Page> {
     let study = study(bench)?;
     let mut tiles = Vec::new();
     for (look, (kernel, ..)) in study.looks.iter().zip(PAPER.iter().chain(&PAPER)) {
@@ -56,7 +57,7 @@ const FIGURE_5: [(&str, &str); 3] = [
     ("esm.kernel=5,classifier=none,sampling=trilinear", "no classifier"),
 ];
 
-pub(super) fn figure_5(bench: &Bench<'_>) -> Result<Page> {
+pub(super) fn figure_5(bench: &Workbench<'_>) -> Result<Page> {
     let study = bench.study(bench.shot("backyard", [800, 600]), bench.map(2048), &FIGURE_5.map(|f| f.0))?;
     let ideal = &bench.truths(&study, &[Truth::LightSpace(5)])?[0];
     let mut table =
@@ -98,7 +99,7 @@ fn helps(found: [f64; 2], none: f64) -> Verdict {
 const OFFSETS: [f32; 5] = [0.1, 0.25, 0.5, 1.0, 2.0];
 const EPSILONS: [f32; 5] = [0.0, 0.01, 0.1, 0.5, 2.0];
 
-pub(super) fn figure_6(bench: &Bench<'_>) -> Result<Page> {
+pub(super) fn figure_6(bench: &Workbench<'_>) -> Result<Page> {
     let zmax = OFFSETS.map(|o| format!("esm.kernel=5,classifier=zmax,offset={o},sampling=trilinear"));
     let threshold = EPSILONS.map(|e| format!("esm.kernel=5,epsilon={e},sampling=trilinear"));
     let specs: Vec<&str> = zmax.iter().chain(&threshold).map(String::as_str).collect();
@@ -155,7 +156,7 @@ fn threshold_acts(epsilons: &[f64]) -> Verdict {
     )
 }
 
-pub(super) fn table_3(bench: &Bench<'_>) -> Result<Page> {
+pub(super) fn table_3(bench: &Workbench<'_>) -> Result<Page> {
     let [zmax, threshold] = shares(&study(bench)?)?;
     let mut table = Table::new(
         "Pixels whose kernel reaches casters behind the receiver.",

@@ -1,13 +1,14 @@
 //! Figures 1 and 8: what ESM looks like beside CSM and VSM, and what it takes.
 
 use crate::{
-    bench::Bench,
     gallery,
     page::{Cell, Page, Table, Unit},
     raster::difference,
-    study::{Look, Study, Traced, Truth},
+    study::{Look, Study, Traced},
     verdict::{Verdict, at_least, at_most, less},
+    workbench::Workbench,
 };
+use antumbra_lab::truth::Truth;
 use anyhow::Result;
 
 /// Spec, name.
@@ -30,7 +31,7 @@ struct Errors {
     contact: Option<f64>,
 }
 
-fn errors(bench: &Bench<'_>, study: &Study, ideal: &Traced) -> Result<[Errors; 3]> {
+fn errors(bench: &Workbench<'_>, study: &Study, ideal: &Traced) -> Result<[Errors; 3]> {
     let regions = bench.regions(study, NEAR)?;
     let contact = regions.get("contact").map(Vec::as_slice).unwrap_or_default();
     let away: Vec<bool> = contact.iter().map(|c| !c).collect();
@@ -85,12 +86,12 @@ fn filtered_bytes(look: &Look) -> f64 {
     look.memory.items.iter().filter(|i| i.mips > 1).map(|i| i.bytes as f64).sum()
 }
 
-pub(super) fn figure_1(bench: &Bench<'_>) -> Result<Page> {
+pub(super) fn figure_1(bench: &Workbench<'_>) -> Result<Page> {
     let (shot, map) = (bench.shot("backyard", [800, 600]), bench.map(2048));
     let study = bench.study(shot, map, &SPECS.map(|s| s.0))?;
     let ideal = &bench.truths(&study, &[Truth::LightSpace(KERNEL)])?[0];
     let errors = errors(bench, &study, ideal)?;
-    let times = bench.race(shot, &SPECS.map(|s| (map, s.0)), bench.rounds(5))?;
+    let times = bench.times(shot, &SPECS.map(|s| (map, s.0)), bench.rounds(5))?;
     let frame = |i: usize| times[i].frame.median_ms;
     let mut table = Table::new(
         "Memory of the filtered maps with mip levels, and frame time over that of ESM.",
@@ -113,7 +114,7 @@ pub(super) fn figure_1(bench: &Bench<'_>) -> Result<Page> {
     Ok(page)
 }
 
-pub(super) fn figure_8(bench: &Bench<'_>) -> Result<Page> {
+pub(super) fn figure_8(bench: &Workbench<'_>) -> Result<Page> {
     let study = bench.study(bench.shot("fence", [800, 600]), bench.map(2048), &SPECS.map(|s| s.0))?;
     let ideal = &bench.truths(&study, &[Truth::LightSpace(KERNEL)])?[0];
     let errors = errors(bench, &study, ideal)?;

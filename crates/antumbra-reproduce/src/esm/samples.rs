@@ -1,13 +1,13 @@
 //! Figure 7: how many samples PCF needs.
 
 use crate::{
-    bench::Bench,
     gallery,
     page::{Cell, Page, Table, Unit},
     raster::difference,
-    study::Truth,
     verdict::{Verdict, at_least, more},
+    workbench::Workbench,
 };
+use antumbra_lab::truth::Truth;
 use anyhow::Result;
 
 const BUDGETS: [u32; 7] = [1, 4, 9, 16, 36, 64, 144];
@@ -16,14 +16,14 @@ const ESM: [(&str, &str); 2] = [
     ("esm.kernel=5,sampling=trilinear", "ESM, 5×5 Gauss"),
 ];
 
-pub(super) fn figure_7(bench: &Bench<'_>) -> Result<Page> {
+pub(super) fn figure_7(bench: &Workbench<'_>) -> Result<Page> {
     let pcf = BUDGETS.map(|n| format!("footprint.budget={n}"));
     let specs: Vec<&str> = pcf.iter().map(String::as_str).chain(ESM.map(|e| e.0)).collect();
     let (shot, map) = (bench.shot("fence", [640, 480]).from(2.0), bench.map(2048));
     let study = bench.study(shot, map, &specs)?;
     let truth = &bench.truths(&study, &[Truth::ScreenSpace(8)])?[0];
-    let entrants: Vec<(u32, &str)> = specs.iter().map(|s| (map, *s)).collect();
-    let times = bench.race(shot, &entrants, bench.rounds(5))?;
+    let frames: Vec<(u32, &str)> = specs.iter().map(|s| (map, *s)).collect();
+    let times = bench.times(shot, &frames, bench.rounds(5))?;
     let names: Vec<String> =
         BUDGETS.iter().map(|n| format!("PCF, {n} samples")).chain(ESM.map(|e| e.1.to_string())).collect();
     let mut table = Table::new(

@@ -1,9 +1,9 @@
 //! Tables 1 and 2: frame times.
 
 use crate::{
-    bench::Bench,
     page::{Cell, Page, Table, Unit},
     verdict::{Verdict, at_least, at_most, more, same_order},
+    workbench::Workbench,
 };
 use anyhow::Result;
 
@@ -35,11 +35,11 @@ fn convolution(kernel: u32) -> String {
     if kernel == 1 { "none".into() } else { format!("{kernel}×{kernel}") }
 }
 
-pub(super) fn table_1(bench: &Bench<'_>) -> Result<Page> {
+pub(super) fn table_1(bench: &Workbench<'_>) -> Result<Page> {
     let cells: Vec<(u32, [String; 4])> = TABLE_1.map(|(k, map, _)| (bench.map(map), specs(k))).into();
-    let entrants: Vec<(u32, &str)> =
+    let frames: Vec<(u32, &str)> =
         cells.iter().flat_map(|(map, specs)| specs.iter().map(|s| (*map, s.as_str()))).collect();
-    let times = bench.race(bench.shot("backyard", [800, 600]), &entrants, bench.rounds(3))?;
+    let times = bench.times(bench.shot("backyard", [800, 600]), &frames, bench.rounds(3))?;
     let times: Vec<f64> = times.iter().map(|t| t.frame.median_ms).collect();
     let ours: Vec<[f64; 4]> = times.chunks_exact(4).map(|t| [0, 1, 2, 3].map(|i| t[i] / t[0])).collect();
     let paper = TABLE_1.map(|(.., fps)| fps.map(|f| fps[0] / f));
@@ -86,7 +86,7 @@ const TABLE_2: [(u32, [f64; 4], [f64; 4]); 3] = [
 ];
 const SIZES: [u32; 4] = [128, 256, 512, 1024];
 
-pub(super) fn table_2(bench: &Bench<'_>) -> Result<Page> {
+pub(super) fn table_2(bench: &Workbench<'_>) -> Result<Page> {
     let pairs: Vec<(u32, [String; 2])> = TABLE_2
         .iter()
         .flat_map(|(kernel, ..)| SIZES.map(|size| (size, *kernel)))
@@ -95,9 +95,9 @@ pub(super) fn table_2(bench: &Bench<'_>) -> Result<Page> {
             (bench.map(size), [zmax, threshold])
         })
         .collect();
-    let entrants: Vec<(u32, &str)> =
+    let frames: Vec<(u32, &str)> =
         pairs.iter().flat_map(|(map, pair)| pair.iter().map(|s| (*map, s.as_str()))).collect();
-    let times = bench.race(bench.shot("spheres", [800, 800]), &entrants, bench.rounds(5))?;
+    let times = bench.times(bench.shot("spheres", [800, 800]), &frames, bench.rounds(5))?;
     let ratios: Vec<f64> =
         times.chunks_exact(2).map(|t| t[0].frame.median_ms / t[1].frame.median_ms).collect();
     let mut table = Table::new(

@@ -75,7 +75,7 @@ fn entry(row: &Entry, columns: &[Column]) -> String {
                 classes.push("starts");
             }
             last = &column.group;
-            if row.leads.contains(&column.key) {
+            if row.on_front.contains(&column.key) {
                 classes.push("leads");
             }
             let class =

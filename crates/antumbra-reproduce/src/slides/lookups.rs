@@ -1,14 +1,14 @@
 //! What lookups give and cost: bicubic, layered variance, summed-area tables.
 
 use crate::{
-    bench::Bench,
     gallery,
     page::{Block, Cell, Page, Table, Unit},
     raster::difference,
-    study::Truth,
     verdict::{Verdict, at_least, at_most, less},
+    workbench::Workbench,
 };
 use antumbra::technique::bicubic::reference::spline;
+use antumbra_lab::truth::Truth;
 use antumbra_lab::{
     chart::{Curve, Panel},
     results::TimeResult,
@@ -25,7 +25,7 @@ const SHOWN: [(&str, &str); 4] = [
 /// Texels to each side of the edge.
 const REACH: i16 = 3;
 
-pub(super) fn bicubic(bench: &Bench<'_>) -> Result<Page> {
+pub(super) fn bicubic(bench: &Workbench<'_>) -> Result<Page> {
     // Not the texels' borders, where nearest lookups could go either way.
     let positions: Vec<f32> = (-40 * REACH..40 * REACH).map(|i| (f32::from(i) + 0.5) / 40.0).collect();
     let mut curves = Vec::new();
@@ -80,7 +80,7 @@ const LAYERS: [(&str, &str); 4] = [
     ("lvsm.kernel=5,intervals=8,sampling=trilinear", "8 intervals"),
 ];
 
-pub(super) fn vsm_layers(bench: &Bench<'_>) -> Result<Page> {
+pub(super) fn vsm_layers(bench: &Workbench<'_>) -> Result<Page> {
     let study = bench.study(bench.shot("layers", [640, 480]), bench.map(1024), &LAYERS.map(|l| l.0))?;
     let ideal = &bench.truths(&study, &[Truth::LightSpace(5)])?[0];
     let mut table = Table::new(
@@ -120,15 +120,15 @@ fn alleviated(vsm: Option<f64>, four: Option<f64>, eight: Option<f64>) -> Verdic
 const BOXES: [u32; 4] = [3, 7, 15, 63];
 const KERNELS: [u32; 4] = [2, 4, 8, 16];
 
-pub(super) fn sat(bench: &Bench<'_>) -> Result<Page> {
+pub(super) fn sat(bench: &Workbench<'_>) -> Result<Page> {
     let summed = BOXES.map(|k| format!("vsm.sampling=summed,kernel={k}"));
     let pcf = KERNELS.map(|k| format!("pcf.kernel={k},weights=box,taps=nearest"));
     let map = bench.map(1024);
-    let entrants: Vec<(u32, &str)> = std::iter::once("none")
+    let frames: Vec<(u32, &str)> = std::iter::once("none")
         .chain(summed.iter().chain(&pcf).map(String::as_str))
         .map(|s| (map, s))
         .collect();
-    let times = bench.race(bench.shot("spheres", [640, 480]), &entrants, bench.rounds(9))?;
+    let times = bench.times(bench.shot("spheres", [640, 480]), &frames, bench.rounds(9))?;
     let lookup = |time: &TimeResult| pass_ms(time, "lookup").unwrap_or(time.frame.median_ms);
     let (none, times) = times.split_at(1);
     let own: Vec<f64> = times.iter().map(|t| lookup(t) - lookup(&none[0])).collect();

@@ -2,11 +2,11 @@
 
 use super::quality::studied;
 use crate::{
-    bench::Bench,
     gallery,
     page::{Cell, Page, Table, Unit},
     raster::difference,
     verdict::{Verdict, at_least, more},
+    workbench::Workbench,
 };
 use anyhow::{Context, Result};
 
@@ -33,7 +33,7 @@ const PAPER: f64 = 0.9963;
 /// What an answer that may be called right matches.
 const RIGHT: f64 = 0.999;
 
-pub(super) fn beyond(bench: &Bench<'_>) -> Result<Page> {
+pub(super) fn beyond(bench: &Workbench<'_>) -> Result<Page> {
     let specs = ENTRIES.map(|entry| entry.0);
     let mut matches = vec![Vec::new(); ENTRIES.len()];
     let mut page = Page::default();
@@ -59,8 +59,8 @@ pub(super) fn beyond(bench: &Bench<'_>) -> Result<Page> {
     }
     let (large, truth) = studied(bench, SCENE, RESOLUTION, LARGE, &["hard"])?;
     let large = bench.score(&large, "hard", &truth, None)?.pixel_match;
-    let entrants: Vec<(u32, &str)> = specs.iter().map(|spec| (bench.map(MAPS[1]), *spec)).collect();
-    let times = bench.race(bench.shot(SCENE, RESOLUTION), &entrants, bench.rounds(3))?;
+    let frames: Vec<(u32, &str)> = specs.iter().map(|spec| (bench.map(MAPS[1]), *spec)).collect();
+    let times = bench.times(bench.shot(SCENE, RESOLUTION), &frames, bench.rounds(3))?;
     let mut table = Table::new(
         "Share of pixels that rays answer likewise; frame time over that of the standard map, and memory, with a 1024² map.",
         &["triangles kept", "512²", "1024²", "2048²", "4096²", "frame", "memory"],

@@ -1,9 +1,9 @@
 //! Flicker along a path of camera and light.
 
 use crate::{
-    bench::Bench,
     page::{Cell, Page, Table, Unit},
     verdict::{Verdict, at_most},
+    workbench::Workbench,
 };
 use antumbra_lab::{
     flicker::{Promise, ROW_FILE, STRIP_FILE},
@@ -17,7 +17,7 @@ const SCENES: [(&str, u32); 3] = [("contact", 120), ("spheres", 120), ("tangle",
 /// Flicker over that of a standard map that is called calm.
 const HALF: f64 = 0.5;
 
-pub(super) fn flicker(bench: &Bench<'_>) -> Result<Page> {
+pub(super) fn flicker(bench: &Workbench<'_>) -> Result<Page> {
     let mut page = Page::default();
     let mut table = Table::new(
         "Flicker against the hard truth, mean per pixel and frame. In the picture: the same pixel in both frames. On \

@@ -1,14 +1,14 @@
 //! Figures 6 and 11: what is decided within a texel and within a pixel.
 
 use crate::{
-    bench::Bench,
     gallery,
     page::{Cell, Page, Table, Unit},
     raster::difference,
-    study::Truth,
     verdict::{Verdict, at_most, less},
+    workbench::Workbench,
 };
 use antumbra::technique::BiasTerms;
+use antumbra_lab::truth::Truth;
 use anyhow::Result;
 
 /// What SPSM has by itself: too little for comparisons with whole texels.
@@ -20,7 +20,7 @@ const SLOPES: [(&str, &str); 3] = [
     ("spsm", "SPSM, 12 bits"),
 ];
 
-pub(super) fn figure_6(bench: &Bench<'_>) -> Result<Page> {
+pub(super) fn figure_6(bench: &Workbench<'_>) -> Result<Page> {
     let shot = bench.shot("spheres", [640, 480]);
     let study = bench.study_biased(shot, bench.map(1024), &SLOPES.map(|s| s.0), SAME.into())?;
     let truth = &bench.truths(&study, &[Truth::Hard])?[0];
@@ -59,12 +59,12 @@ const SAMPLES: [(&str, &str); 4] = [
     ("spsm.samples=4", "4×4 samples"),
 ];
 
-pub(super) fn figure_11(bench: &Bench<'_>) -> Result<Page> {
+pub(super) fn figure_11(bench: &Workbench<'_>) -> Result<Page> {
     let specs = SAMPLES.map(|s| s.0);
     let (shot, map) = (bench.shot("spheres", [640, 480]), bench.map(1024));
     let study = bench.study(shot, map, &specs)?;
     let truth = &bench.truths(&study, &[Truth::ScreenSpace(4)])?[0];
-    let times = bench.race(shot, &specs.map(|s| (map, s)), bench.rounds(5))?;
+    let times = bench.times(shot, &specs.map(|s| (map, s)), bench.rounds(5))?;
     let mut table = Table::new(
         "RMSE to 16 rays per pixel; frame time over that of one sample.",
         &["technique", "RMSE", "frame time"],

@@ -1,14 +1,15 @@
 //! Figures 2 and 12 to 15: whose edges are right.
 
 use crate::{
-    bench::{Bench, first_known},
     gallery,
     page::{Cell, Page, Table, Tile, Unit},
     raster::{difference, gray},
-    study::{Study, Traced, Truth},
+    study::{Study, Traced},
     verdict::{Verdict, at_least, less, more},
+    workbench::{Workbench, first_known},
 };
 use antumbra_lab::metrics::Score;
+use antumbra_lab::truth::Truth;
 use anyhow::{Context, Result};
 
 const PAIR: [(&str, &str); 2] = [("hard", "standard map"), ("spsm", "SPSM")];
@@ -17,7 +18,7 @@ const UNCERTAIN: &str = "uncertain";
 
 /// Techniques on a scene, and one shadow ray per pixel.
 pub(super) fn studied(
-    bench: &Bench<'_>,
+    bench: &Workbench<'_>,
     scene: &'static str,
     resolution: [u32; 2],
     map: u32,
@@ -42,7 +43,7 @@ fn row(table: &mut Table, name: String, score: &Score, paper: Option<f64>) {
 
 const HEAD: [&str; 4] = ["technique", "pixel match", "within 2 pixels of edges", "RMSE"];
 
-pub(super) fn figure_2(bench: &Bench<'_>) -> Result<Page> {
+pub(super) fn figure_2(bench: &Workbench<'_>) -> Result<Page> {
     let (study, truth) = studied(bench, "spheres", [640, 480], 512, &PAIR.map(|p| p.0))?;
     let mut table = Table::new("Against one shadow ray per pixel.", &HEAD);
     let mut edges = Vec::new();
@@ -79,7 +80,7 @@ fn smooth(hard: Option<f64>, spsm: Option<f64>) -> Verdict {
 /// Standard map and SPSM at 2048².
 const MATCH: [f64; 2] = [0.9793, 0.9963];
 
-pub(super) fn figure_12(bench: &Bench<'_>) -> Result<Page> {
+pub(super) fn figure_12(bench: &Workbench<'_>) -> Result<Page> {
     let mut page = Page::default();
     let mut table = Table::new("Against one shadow ray per pixel.", &HEAD);
     let mut found = Vec::new();
@@ -121,7 +122,7 @@ fn outperforms(hard: f64, spsm: f64) -> Verdict {
     )
 }
 
-pub(super) fn figure_13(bench: &Bench<'_>) -> Result<Page> {
+pub(super) fn figure_13(bench: &Workbench<'_>) -> Result<Page> {
     // As published: rays that meet no triangle are lit.
     let rgsm = first_known(&["rgsm.neighbours=5,missed=lit"]);
     let mut entries: Vec<(&str, &str)> = vec![PAIR[0]];
@@ -191,7 +192,7 @@ fn rgsm_fails([few, many]: [[Option<f64>; 2]; 2], spsm: Option<f64>) -> Verdict 
     )
 }
 
-pub(super) fn figure_14(bench: &Bench<'_>) -> Result<Page> {
+pub(super) fn figure_14(bench: &Workbench<'_>) -> Result<Page> {
     let mut table = Table::new(
         "Shares of the pixels that see geometry. The paper leaves the last two without colour.",
         &["map", "uncertain", "by 3×3 triangles", "by one", "lit, or facing away"],
@@ -229,7 +230,7 @@ fn fewer(shares: &[f64]) -> Verdict {
     )
 }
 
-pub(super) fn figure_15(bench: &Bench<'_>) -> Result<Page> {
+pub(super) fn figure_15(bench: &Workbench<'_>) -> Result<Page> {
     let mut page = Page::default();
     let mut table = Table::new(
         "Fusion: share of the pixels that rays see lit which are answered shadowed.",
@@ -249,7 +250,7 @@ pub(super) fn figure_15(bench: &Bench<'_>) -> Result<Page> {
                 rasters.push(gray(&study.look(spec)?.visibility()?));
             }
         }
-        truth = Some(gray(&traced.plane));
+        truth = Some(gray(&traced.truth.image));
     }
     let truth = truth.context("no truth")?;
     let window = gallery::window(&difference(&rasters[0], &truth), &truth, 6);

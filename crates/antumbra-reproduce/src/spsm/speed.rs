@@ -1,10 +1,10 @@
 //! Tables 1 and 2: frame times.
 
 use crate::{
-    bench::Bench,
     numbers::steps,
     page::{Cell, Page, Table, Unit},
     verdict::{Verdict, at_most, more},
+    workbench::Workbench,
 };
 use anyhow::Result;
 
@@ -15,7 +15,7 @@ const TABLE_1: [(&str, &str, [f64; 2], [f64; 2]); 3] = [
     ("city", "City", [31.2, 32.2], [40.0, 41.6]),
 ];
 
-pub(super) fn table_1(bench: &Bench<'_>) -> Result<Page> {
+pub(super) fn table_1(bench: &Workbench<'_>) -> Result<Page> {
     let mut table = Table::new(
         "Frame times over that of the standard map, of SPSM and of deep primitive maps (DPM), and those of 1024².",
         &["scene", "1024²", "2048²", "DPM, 1024²", "DPM, 2048²", "standard", "SPSM", "DPM"],
@@ -28,10 +28,10 @@ pub(super) fn table_1(bench: &Bench<'_>) -> Result<Page> {
             continue;
         }
         let maps = [1024, 2048].map(|m| bench.map(m));
-        let entrants: Vec<(u32, &str)> =
+        let frames: Vec<(u32, &str)> =
             maps.iter().flat_map(|map| ["hard", "spsm", "dpm"].map(|spec| (*map, spec))).collect();
         let rounds = if scene == "city" { 1 } else { bench.rounds(3) };
-        let times = match bench.race(bench.shot(scene, [960, 540]), &entrants, rounds) {
+        let times = match bench.times(bench.shot(scene, [960, 540]), &frames, rounds) {
             Ok(times) => times,
             Err(reason) => {
                 page.text(format!("{scene} was not measured: {reason:#}"));
@@ -68,10 +68,10 @@ fn small_overhead(ratios: &[f64]) -> Verdict {
 const TABLE_2: [(u32, f64, f64); 4] =
     [(512, 5.5, 10.0), (1024, 5.8, 9.1), (2048, 7.4, 10.7), (4096, 14.2, 18.1)];
 
-pub(super) fn table_2(bench: &Bench<'_>) -> Result<Page> {
-    let entrants: Vec<(u32, &str)> =
+pub(super) fn table_2(bench: &Workbench<'_>) -> Result<Page> {
+    let frames: Vec<(u32, &str)> =
         TABLE_2.iter().flat_map(|(map, ..)| ["hard", "spsm"].map(|s| (bench.map(*map), s))).collect();
-    let times = bench.race(bench.shot("tangle", [960, 540]), &entrants, bench.rounds(3))?;
+    let times = bench.times(bench.shot("tangle", [960, 540]), &frames, bench.rounds(3))?;
     let mut table = Table::new(
         "Frame times, and SPSM over the standard map.",
         &["map", "standard", "SPSM", "SPSM over standard"],

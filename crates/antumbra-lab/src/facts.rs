@@ -1,53 +1,17 @@
-//! What the results say of techniques, scene and machine.
+//! What results say of shadow maps, scene and machine.
 
-use super::{Contestant, Rendered};
 use crate::{
     gpu::Gpu,
     results::{
         AdapterFacts, BoundsFacts, CameraFacts, LensFacts, Lifetime, LightFacts, MemoryItem, MemoryResult,
-        Program, RunFacts, SceneFacts, TechniqueResult, TimeResult, ViewFacts, Work,
+        Program, RunFacts, SceneFacts, ViewFacts, Work,
     },
-    setting::Setting,
+    session::Session,
+    shot::Shot,
 };
-use antumbra::{Memory, ShadowMap, View, technique};
+use antumbra::{Memory, ShadowMap, View};
 use antumbra_scene::{Light, Projection};
 use anyhow::{Context, Result};
-
-/// One entry of the results.
-pub(super) fn technique(contestant: &Contestant, rendered: Rendered, time: TimeResult) -> TechniqueResult {
-    let shadows = &contestant.shadows;
-    let page = shadows.technique().page();
-    let mut technique = shadows.technique().boxed();
-    let settings = technique.parameters().iter().map(|p| (p.name.to_string(), value(&p.value()))).collect();
-    let Rendered { scores, classes, regions, images } = rendered;
-    TechniqueResult {
-        name: page.name.into(),
-        spec: technique::spec(shadows.technique()),
-        title: page.title.into(),
-        family: page.family,
-        paper: page.paper.into(),
-        settings,
-        scores,
-        regions,
-        classes,
-        time,
-        memory: memory(&shadows.memory()),
-        work: Some(work(shadows)),
-        invalid: contestant.invalid(),
-        explain: explain(contestant),
-        images,
-    }
-}
-
-/// What the library says of itself, and how much its lists held.
-fn explain(contestant: &Contestant) -> Vec<String> {
-    let occupancy = contestant.occupancy.as_ref();
-    let held = occupancy.and_then(|occupancy| occupancy.lists.as_ref()).map(|lists| {
-        let (mean, longest) = (lists.mean(), lists.longest);
-        format!("lists held {} triangles, {mean:.2} per texel, at most {longest}", lists.entries)
-    });
-    contestant.shadows.explain().into_iter().chain(held).collect()
-}
 
 /// What a shadow map takes, as results say it.
 #[must_use]
@@ -83,34 +47,36 @@ pub fn work(shadows: &ShadowMap) -> Work {
     }
 }
 
-/// A number where the text is one.
-fn value(text: &str) -> serde_json::Value {
-    serde_json::from_str(text).unwrap_or_else(|_| text.into())
+/// The program that measures.
+#[must_use]
+pub fn program() -> Program {
+    Program { name: "antumbra".into(), version: env!("CARGO_PKG_VERSION").into() }
 }
 
 /// What was run.
-pub(crate) fn run(gpu: &Gpu, setting: &Setting, views: &[View], command: Vec<String>) -> Result<RunFacts> {
+pub(crate) fn run(gpu: &Gpu, session: &Session<'_>, command: Vec<String>) -> Result<RunFacts> {
+    let shot = session.shot();
     Ok(RunFacts {
-        program: Program { name: "antumbra".into(), version: env!("CARGO_PKG_VERSION").into() },
+        program: program(),
         command,
-        scene: scene(setting)?,
-        resolution: setting.resolution,
-        map_size: setting.map_size,
-        kernel_texels: setting.kernel,
-        bias: setting.bias.to_string(),
-        views: self::views(views),
-        adapter: adapter_facts(gpu),
+        scene: scene(shot)?,
+        resolution: shot.resolution,
+        map_size: shot.map_size,
+        kernel_texels: shot.kernel,
+        bias: shot.bias.to_string(),
+        views: views(session.views()),
+        adapter: adapter(gpu),
     })
 }
 
 /// What was rendered.
-fn scene(setting: &Setting) -> Result<SceneFacts> {
-    let bounds = setting.geometry.bounds().context("the scene has no triangles")?;
-    let camera = &setting.camera;
+fn scene(shot: &Shot) -> Result<SceneFacts> {
+    let bounds = shot.geometry.bounds().context("the scene has no triangles")?;
+    let camera = &shot.camera;
     Ok(SceneFacts {
-        name: setting.name.clone(),
-        triangles: setting.geometry.triangle_count() as u64,
-        light: match setting.light {
+        name: shot.name.clone(),
+        triangles: shot.geometry.triangle_count() as u64,
+        light: match shot.light {
             Light::Directional { direction } => LightFacts::Directional { direction: direction.to_array() },
             Light::Spot { position, direction, outer_angle } => LightFacts::Spot {
                 position: position.to_array(),
@@ -127,7 +93,7 @@ fn scene(setting: &Setting) -> Result<SceneFacts> {
                 Projection::Orthographic { height } => LensFacts::Height(height),
             },
         },
-        origin: setting.geometry.placement.origin.to_array(),
+        origin: shot.geometry.placement.origin.to_array(),
         bounds: BoundsFacts { min: bounds.min.to_array(), max: bounds.max.to_array() },
     })
 }
@@ -140,7 +106,7 @@ fn views(views: &[View]) -> Vec<ViewFacts> {
 
 /// What a GPU says of itself.
 #[must_use]
-pub fn adapter_facts(gpu: &Gpu) -> AdapterFacts {
+pub fn adapter(gpu: &Gpu) -> AdapterFacts {
     // The software driver's precision depends on this variable, so it belongs to the driver's name.
     let tuning = std::env::var("GALLIVM_PERF").ok().filter(|_| gpu.info.device_type == wgpu::DeviceType::Cpu);
     let tuning = tuning.map(|value| format!(" GALLIVM_PERF={value}")).unwrap_or_default();
@@ -153,8 +119,8 @@ pub fn adapter_facts(gpu: &Gpu) -> AdapterFacts {
     }
 }
 
-/// Most memory that this process held, where Linux tells.
-pub(super) fn peak_memory() -> Option<u64> {
+/// Largest memory that this process held, where Linux tells.
+pub(crate) fn peak_memory() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
     line.split_whitespace().next()?.parse::<u64>().ok().map(|kib| kib * 1024)

@@ -1,7 +1,6 @@
 //! The holes of masked materials, for lookups that ask about them where rays meet triangles.
 
-use super::loaded_buffer;
-use crate::gpu::Gpu;
+use crate::{Gpu, layout::loaded_buffer};
 use antumbra_scene::{AlphaMode, Geometry};
 use bytemuck::{Pod, Zeroable};
 use std::collections::BTreeMap;

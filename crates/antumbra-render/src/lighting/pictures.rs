@@ -6,12 +6,10 @@
 
 use super::Lighting;
 use crate::{
-    gpu::Gpu,
-    plane::Rgba8Image,
+    Gpu, GpuScene, RenderError,
+    layout::{fullscreen, fullscreen_into, loaded, overwrite},
     shaders,
-    stage::{Stage, fullscreen, fullscreen_into, loaded, surfaces::overwrite},
 };
-use anyhow::Result;
 use glam::Vec2;
 use wgpu::{LoadOp, TextureFormat, TextureView};
 
@@ -25,7 +23,7 @@ const PARTS: f32 = 16.0;
 /// Of the light's textures, in which sums of samples are blended.
 const FORMAT: TextureFormat = TextureFormat::Rgba16Float;
 
-/// The light that a stage's surfaces reflect, and the picture that it makes with a visibility buffer.
+/// The light that a scene's surfaces reflect, and the picture that it makes with a visibility buffer.
 #[derive(Debug)]
 pub struct Pictures {
     picture: wgpu::Texture,
@@ -35,17 +33,17 @@ pub struct Pictures {
 }
 
 impl Pictures {
-    /// Draws the stage as its camera and light are now, once per sample. What its
-    /// [`surfaces`](Stage::surfaces) hold is then to be drawn anew.
+    /// Draws the scene as its camera and light are now, once per sample. What its
+    /// [`surfaces`](GpuScene::surfaces) hold is then to be drawn anew.
     ///
     /// # Errors
-    /// If the device is lost.
-    pub fn new(gpu: &Gpu, stage: &Stage, lighting: &Lighting) -> Result<Self> {
-        let size = stage.surfaces().resolution();
+    /// As [`Gpu::check`].
+    pub fn new(gpu: &Gpu, scene: &GpuScene, lighting: &Lighting) -> Result<Self, RenderError> {
+        let size = scene.surfaces().resolution();
         let target = |label, format| gpu.target(label, size, format);
         let terms =
             ["sun", "other light"].map(|label| target(label, FORMAT).create_view(&Default::default()));
-        draw(gpu, stage, &terms)?;
+        draw(gpu, scene, &terms)?;
         let layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("picture"),
             entries: &[loaded(0), loaded(1), loaded(2)],
@@ -81,22 +79,20 @@ impl Pictures {
         pass.draw(0..3, 0..1);
     }
 
-    /// The picture. Waits.
-    ///
-    /// # Errors
-    /// If the device is lost.
-    pub fn read(&self, gpu: &Gpu) -> Result<Rgba8Image> {
-        Ok(Rgba8Image::new(self.picture.width(), self.picture.height(), gpu.read(&self.picture)?)?)
+    /// The picture: sRGB colour with alpha, four bytes a pixel.
+    #[must_use]
+    pub fn picture(&self) -> &wgpu::Texture {
+        &self.picture
     }
 }
 
 /// Fills both textures of light.
-fn draw(gpu: &Gpu, stage: &Stage, terms: &[TextureView; 2]) -> Result<()> {
-    let pipeline = pipeline(gpu, stage);
+fn draw(gpu: &Gpu, scene: &GpuScene, terms: &[TextureView; 2]) -> Result<(), RenderError> {
+    let pipeline = pipeline(gpu, scene);
     for (i, offset) in OFFSETS.iter().enumerate() {
-        stage.shift(gpu, Vec2::from(*offset) / PARTS);
+        scene.shift(gpu, Vec2::from(*offset) / PARTS);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        stage.encode_surfaces(&mut encoder, None);
+        scene.encode_surfaces(&mut encoder, None);
         let load = if i == 0 { LoadOp::Clear(wgpu::Color::TRANSPARENT) } else { LoadOp::Load };
         let ops = wgpu::Operations { load, store: wgpu::StoreOp::Store };
         let targets = terms.each_ref().map(|view| {
@@ -109,17 +105,17 @@ fn draw(gpu: &Gpu, stage: &Stage, terms: &[TextureView; 2]) -> Result<()> {
                 ..Default::default()
             });
             pass.set_pipeline(&pipeline);
-            pass.set_bind_group(0, &stage.surfaces().group, &[]);
+            pass.set_bind_group(0, &scene.surfaces().group, &[]);
             pass.draw(0..3, 0..1);
         }
-        gpu.finish(encoder)?;
+        gpu.submit(encoder)?;
     }
-    stage.shift(gpu, Vec2::ZERO);
+    scene.shift(gpu, Vec2::ZERO);
     Ok(())
 }
 
 /// The pass that adds a sample's share of the light.
-fn pipeline(gpu: &Gpu, stage: &Stage) -> wgpu::RenderPipeline {
+fn pipeline(gpu: &Gpu, scene: &GpuScene) -> wgpu::RenderPipeline {
     let source = wgpu::ShaderSource::Wgsl(shaders::LIGHT.into());
     let sum = wgpu::BlendComponent {
         src_factor: wgpu::BlendFactor::One,
@@ -132,5 +128,5 @@ fn pipeline(gpu: &Gpu, stage: &Stage) -> wgpu::RenderPipeline {
         write_mask: wgpu::ColorWrites::ALL,
     };
     let targets = [Some(added.clone()), Some(added)];
-    fullscreen_into(gpu, "light", source, &[&stage.surfaces().layout], &targets)
+    fullscreen_into(gpu, "light", source, &[&scene.surfaces().layout], &targets)
 }

@@ -1,7 +1,11 @@
 //! The pipelines that draw geometry.
 
-use super::{Attributes, Offset, surfaces, uniform_entry};
-use crate::{gpu::Gpu, shaders};
+use super::Attributes;
+use crate::{
+    Gpu,
+    layout::{Offset, uniform_entry},
+    shaders, surfaces,
+};
 use antumbra::Capabilities;
 use wgpu::{BindGroupLayout, RenderPipeline, TextureFormat, VertexFormat};
 
@@ -22,8 +26,8 @@ pub(super) struct Pipelines {
 struct Seen {
     surface: RenderPipeline,
     masked_surface: RenderPipeline,
-    number: RenderPipeline,
-    masked_number: RenderPipeline,
+    id: RenderPipeline,
+    masked_id: RenderPipeline,
 }
 
 /// What one draw of the camera's pass shows.
@@ -46,9 +50,9 @@ impl Pipelines {
         if group.masked { &seen.masked_surface } else { &seen.surface }
     }
 
-    pub(super) fn number(&self, group: Group) -> &RenderPipeline {
+    pub(super) fn id(&self, group: Group) -> &RenderPipeline {
         let seen = self.seen(group);
-        if group.masked { &seen.masked_number } else { &seen.number }
+        if group.masked { &seen.masked_id } else { &seen.id }
     }
 }
 
@@ -81,7 +85,7 @@ impl Pipelines {
             })
         };
         let (bare, full) = (layout(&[Some(&uniform)]), layout(&[Some(&uniform), Some(material)]));
-        let stage = wgsl(gpu, "stage", &[shaders::STAGE]);
+        let surfaces = wgsl(gpu, "surfaces", &[shaders::SURFACES]);
         let caster = wgsl(gpu, "caster", &[shaders::CASTER, antumbra::CASTER_WGSL]);
         let clamps = Capabilities::of(&gpu.device).clamps_depth();
         let cast = |vertex, fragment: Option<&'static str>| Recipe {
@@ -98,7 +102,7 @@ impl Pipelines {
         let see = |fragment, formats, cull_mode| Recipe {
             layout: &full,
             vertex_buffers: 2,
-            module: &stage,
+            module: &surfaces,
             vertex: "surface_vertex",
             fragment: Some(fragment),
             formats,
@@ -112,8 +116,8 @@ impl Pipelines {
         let seen = |cull| Seen {
             surface: make(see("surface", &surfaces::FORMATS, cull)),
             masked_surface: make(see("masked_surface", &surfaces::FORMATS, cull)),
-            number: make(see("number", &[TextureFormat::R32Uint], cull)),
-            masked_number: make(see("masked_number", &[TextureFormat::R32Uint], cull)),
+            id: make(see("triangle_id", &[TextureFormat::R32Uint], cull)),
+            masked_id: make(see("masked_triangle_id", &[TextureFormat::R32Uint], cull)),
         };
         Self {
             caster: make(cast(plain, None)),
@@ -183,55 +187,6 @@ fn pipeline(gpu: &Gpu, recipe: &Recipe<'_>) -> RenderPipeline {
             entry_point: Some(entry),
             compilation_options: Default::default(),
             targets: &targets,
-        }),
-        multiview_mask: None,
-        cache: None,
-    })
-}
-
-/// A full-screen pipeline with entry points `vertex` and `fragment`.
-pub(crate) fn fullscreen(
-    gpu: &Gpu,
-    label: &str,
-    source: wgpu::ShaderSource<'_>,
-    groups: &[&BindGroupLayout],
-    format: TextureFormat,
-) -> RenderPipeline {
-    fullscreen_into(gpu, label, source, groups, &[Some(format.into())])
-}
-
-/// The same into several targets, or with blending.
-pub(crate) fn fullscreen_into(
-    gpu: &Gpu,
-    label: &str,
-    source: wgpu::ShaderSource<'_>,
-    groups: &[&BindGroupLayout],
-    targets: &[Option<wgpu::ColorTargetState>],
-) -> RenderPipeline {
-    let module = gpu.shader(label, source);
-    let groups: Vec<_> = groups.iter().map(|g| Some(*g)).collect();
-    let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        label: Some(label),
-        bind_group_layouts: &groups,
-        immediate_size: 0,
-    });
-    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some(label),
-        layout: Some(&layout),
-        vertex: wgpu::VertexState {
-            module: &module,
-            entry_point: Some("vertex"),
-            compilation_options: Default::default(),
-            buffers: &[],
-        },
-        primitive: Default::default(),
-        depth_stencil: None,
-        multisample: Default::default(),
-        fragment: Some(wgpu::FragmentState {
-            module: &module,
-            entry_point: Some("fragment"),
-            compilation_options: Default::default(),
-            targets,
         }),
         multiview_mask: None,
         cache: None,

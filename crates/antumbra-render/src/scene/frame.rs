@@ -5,10 +5,10 @@ use antumbra_scene::{Camera, Geometry, Light, Projection};
 use bytemuck::{Pod, Zeroable};
 use glam::{Mat4, Vec2, Vec3, Vec4, camera::rh};
 
-/// Rust side of `Frame` in `stage/frame.wgsl`.
+/// Rust side of `Frame` in `scene/frame.wgsl`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
-pub(crate) struct Frame {
+pub(super) struct Frame {
     /// Camera matrix; world positions are taken relative to the eye first, for precision.
     pub(super) clip_from_relative: [[f32; 4]; 4],
     pub(super) eye: [f32; 4],

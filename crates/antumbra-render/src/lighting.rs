@@ -1,13 +1,11 @@
 //! From surfaces to visibility, and from visibility to a picture.
 
 use crate::{
-    gpu::Gpu,
-    plane::Plane,
+    Gpu, GpuScene,
+    layout::{fullscreen, overwrite},
     shaders,
-    stage::{Stage, fullscreen, surfaces::overwrite},
 };
 use antumbra::ShadowMap;
-use anyhow::Result;
 use wgpu::TextureFormat;
 
 mod pictures;
@@ -25,22 +23,23 @@ pub struct Lookup {
 impl Lookup {
     /// For the visibility in one shadow map; 1 where there is no surface.
     #[must_use]
-    pub fn new(gpu: &Gpu, stage: &Stage, shadows: &ShadowMap) -> Self {
-        Self::asking(gpu, stage, shadows, shaders::VISIBILITY)
+    pub fn new(gpu: &Gpu, scene: &GpuScene, shadows: &ShadowMap) -> Self {
+        Self::asking(gpu, scene, shadows, shaders::VISIBILITY)
     }
 
-    /// For the numbers of [`shares`](crate::classes::shares), if the technique has classes.
+    /// For the class of every surface, if the technique has classes: 0 for none, else 1 + the index of its class,
+    /// or a negative number where there is no surface.
     #[must_use]
-    pub fn classes(gpu: &Gpu, stage: &Stage, shadows: &ShadowMap) -> Option<Self> {
+    pub fn classes(gpu: &Gpu, scene: &GpuScene, shadows: &ShadowMap) -> Option<Self> {
         let any = !shadows.technique().classes().is_empty();
-        any.then(|| Self::asking(gpu, stage, shadows, shaders::CLASS))
+        any.then(|| Self::asking(gpu, scene, shadows, shaders::CLASS))
     }
 
-    fn asking(gpu: &Gpu, stage: &Stage, shadows: &ShadowMap, question: &str) -> Self {
-        let masks = stage.masks().filter(|_| shadows.asks_about_cutouts());
+    fn asking(gpu: &Gpu, scene: &GpuScene, shadows: &ShadowMap, question: &str) -> Self {
+        let masks = scene.masks().filter(|_| shadows.asks_about_cutouts());
         let covers = if masks.is_some() { shaders::COVERS } else { "" };
         let source = shadows.wgsl(1).after(&[question, covers].concat());
-        let mut groups = vec![&stage.surfaces().layout, shadows.layout()];
+        let mut groups = vec![&scene.surfaces().layout, shadows.layout()];
         groups.extend(masks.map(|masks| &masks.layout));
         let pipeline = fullscreen(gpu, "lookup", source, &groups, TextureFormat::R32Float);
         Self { pipeline, asks: masks.is_some() }
@@ -48,14 +47,14 @@ impl Lookup {
 
     /// Everything lit: what the pass costs without any lookup.
     #[must_use]
-    pub fn unshadowed(gpu: &Gpu, stage: &Stage) -> Self {
+    pub fn unshadowed(gpu: &Gpu, scene: &GpuScene) -> Self {
         let source = wgpu::ShaderSource::Wgsl(shaders::UNSHADOWED.into());
         Self {
             pipeline: fullscreen(
                 gpu,
                 "unshadowed",
                 source,
-                &[&stage.surfaces().layout],
+                &[&scene.surfaces().layout],
                 TextureFormat::R32Float,
             ),
             asks: false,
@@ -71,10 +70,10 @@ pub struct Lighting {
 }
 
 impl Lighting {
-    /// Targets of the stage's resolution.
+    /// Targets of the scene's resolution.
     #[must_use]
-    pub fn new(gpu: &Gpu, stage: &Stage) -> Self {
-        let size = stage.surfaces().resolution();
+    pub fn new(gpu: &Gpu, scene: &GpuScene) -> Self {
+        let size = scene.surfaces().resolution();
         let visibility = gpu.target("visibility", size, TextureFormat::R32Float);
         let visibility_view = visibility.create_view(&Default::default());
         Self { visibility, visibility_view }
@@ -84,7 +83,7 @@ impl Lighting {
     pub fn encode_lookup(
         &self,
         encoder: &mut wgpu::CommandEncoder,
-        stage: &Stage,
+        scene: &GpuScene,
         lookup: &Lookup,
         shadows: Option<&ShadowMap>,
         timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
@@ -96,34 +95,30 @@ impl Lighting {
             ..Default::default()
         });
         pass.set_pipeline(&lookup.pipeline);
-        pass.set_bind_group(0, &stage.surfaces().group, &[]);
+        pass.set_bind_group(0, &scene.surfaces().group, &[]);
         if let Some(shadows) = shadows {
             pass.set_bind_group(1, shadows.bind_group(), &[]);
         }
-        if let Some(masks) = stage.masks().filter(|_| lookup.asks) {
+        if let Some(masks) = scene.masks().filter(|_| lookup.asks) {
             pass.set_bind_group(2, &masks.group, &[]);
         }
         pass.draw(0..3, 0..1);
     }
 
-    /// The visibility buffer. Waits.
-    ///
-    /// # Errors
-    /// If the device is lost.
-    pub fn read_visibility(&self, gpu: &Gpu) -> Result<Plane> {
-        let bytes = gpu.read(&self.visibility)?;
-        let values = bytes.chunks_exact(4).map(|b| f32::from_ne_bytes([b[0], b[1], b[2], b[3]])).collect();
-        Ok(Plane::new(self.visibility.width(), self.visibility.height(), values)?)
+    /// The visibility buffer: one float a pixel, 1 lit.
+    #[must_use]
+    pub fn visibility(&self) -> &wgpu::Texture {
+        &self.visibility
     }
 
-    /// Replaces the visibility buffer, for pictures of a truth.
-    pub fn write_visibility(&self, gpu: &Gpu, plane: &Plane) {
+    /// Replaces the visibility buffer, for pictures of a truth: one value for each of its pixels, row by row.
+    pub fn write_visibility(&self, gpu: &Gpu, values: &[f32]) {
         let layout = wgpu::TexelCopyBufferLayout {
             offset: 0,
-            bytes_per_row: Some(4 * plane.width),
+            bytes_per_row: Some(4 * self.visibility.width()),
             rows_per_image: None,
         };
-        let texels = bytemuck::cast_slice(&plane.values);
+        let texels = bytemuck::cast_slice(values);
         gpu.queue.write_texture(self.visibility.as_image_copy(), texels, layout, self.visibility.size());
     }
 }

@@ -1,12 +1,10 @@
 //! Materials and their textures.
 
-use super::uniform;
-use crate::gpu::Gpu;
+use crate::{Gpu, RenderError, layout::uniform};
 use antumbra_scene::{AlphaMode, Geometry, Image, Material};
-use anyhow::{Result, bail};
 use bytemuck::{Pod, Zeroable};
 
-/// Rust side of `Material` in `stage/frame.wgsl`.
+/// Rust side of `Material` in `scene/frame.wgsl`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
 pub(super) struct MaterialUniform {
@@ -26,7 +24,7 @@ pub(super) struct Materials {
 }
 
 impl Materials {
-    pub(super) fn new(gpu: &Gpu, geometry: &Geometry) -> Result<Self> {
+    pub(super) fn new(gpu: &Gpu, geometry: &Geometry) -> Result<Self, RenderError> {
         let entry = |binding, ty| wgpu::BindGroupLayoutEntry {
             binding,
             visibility: wgpu::ShaderStages::FRAGMENT,
@@ -52,7 +50,7 @@ impl Materials {
             Image { name: "white".into(), width: 1, height: 1, rgba: vec![255; 4], repeat: [true; 2] };
         let white = texture(gpu, &white)?;
         let textures: Vec<wgpu::TextureView> =
-            geometry.images.iter().map(|i| texture(gpu, i)).collect::<Result<_>>()?;
+            geometry.images.iter().map(|i| texture(gpu, i)).collect::<Result<_, _>>()?;
         let group = |(number, material): (u32, &Material)| {
             let image = material.base_color_image;
             let view = image.and_then(|i| textures.get(i)).unwrap_or(&white);
@@ -102,15 +100,11 @@ fn sampler(gpu: &Gpu, repeat: [bool; 2]) -> wgpu::Sampler {
 }
 
 /// Uploads an image with its mip chain, averaged in sRGB values: good enough to look at.
-fn texture(gpu: &Gpu, image: &Image) -> Result<wgpu::TextureView> {
-    let most = gpu.device.limits().max_texture_dimension_2d;
-    if image.width > most || image.height > most {
-        bail!(
-            "image '{}' of {}x{} pixels is larger than the device's {most}",
-            image.name,
-            image.width,
-            image.height
-        );
+fn texture(gpu: &Gpu, image: &Image) -> Result<wgpu::TextureView, RenderError> {
+    let max = gpu.device.limits().max_texture_dimension_2d;
+    let (mut width, mut height, mut pixels) = (image.width, image.height, image.rgba.clone());
+    if width > max || height > max {
+        return Err(RenderError::Image { name: image.name.clone(), width, height, max });
     }
     let levels = image.width.max(image.height).ilog2() + 1;
     let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
@@ -123,7 +117,6 @@ fn texture(gpu: &Gpu, image: &Image) -> Result<wgpu::TextureView> {
         usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
         view_formats: &[],
     });
-    let (mut width, mut height, mut pixels) = (image.width, image.height, image.rgba.clone());
     for mip_level in 0..levels {
         gpu.queue.write_texture(
             wgpu::TexelCopyTextureInfo { mip_level, ..texture.as_image_copy() },

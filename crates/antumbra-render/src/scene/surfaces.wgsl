@@ -62,11 +62,11 @@ fn alpha(uv: vec2f, color: vec4f) -> f32 {
     return result;
 }
 
-@fragment fn number(in: Varying) -> @location(0) u32 {
+@fragment fn triangle_id(in: Varying) -> @location(0) u32 {
     return in.triangle + 1u;
 }
 
-@fragment fn masked_number(in: Varying) -> @location(0) u32 {
+@fragment fn masked_triangle_id(in: Varying) -> @location(0) u32 {
     if alpha(in.uv, in.color) < material.cutoff {
         discard;
     }

@@ -1,45 +1,9 @@
-//! The light's views: fitting them, and which of them shades a point.
+//! Which of a light's views shades a point, and how its texels lie there.
 
-use antumbra::{Bounds, Cascades, ShadowMap, View};
-use antumbra_scene::{Aabb, Light};
+use antumbra::View;
 use antumbra_truth::{MapPlane, MapPlanes};
-use anyhow::{Context, Result, bail};
-use glam::{DVec2, DVec3, Mat4};
-
-// Scenes and the library know the same spots.
-const _: () = assert!(Light::MAX_OUTER_ANGLE == antumbra::Light::MAX_OUTER_ANGLE);
-
-/// The light as the library knows it.
-#[must_use]
-pub fn library_light(light: &Light) -> antumbra::Light {
-    match *light {
-        Light::Directional { direction } => antumbra::Light::Directional { direction },
-        Light::Spot { position, direction, outer_angle } => {
-            antumbra::Light::Spot { position, direction, outer_angle }
-        }
-    }
-}
-
-/// The views of a light for a camera's matrix and a scene's box, nearest first: `cascades` of a sun where
-/// the camera sees something in each, one of a spot. The margin is that of the widest kernel of `maps`.
-///
-/// # Errors
-/// [`antumbra::LightError`].
-pub fn fit(
-    camera: Mat4,
-    scene: Aabb,
-    light: &Light,
-    cascades: u32,
-    maps: &[&ShadowMap],
-) -> Result<Vec<View>> {
-    let fit = antumbra::CameraFit {
-        camera,
-        scene: Bounds { min: scene.min, max: scene.max },
-        size: maps.first().context("no shadow map")?.size(),
-        margin_texels: maps.iter().map(|s| s.margin_texels()).fold(1.0, f32::max),
-    };
-    library_light(light).views(&fit, Cascades::new(cascades)).context("the light has no view")
-}
+use anyhow::{Result, bail};
+use glam::{DVec2, DVec3};
 
 /// Which of a light's views shades a point, as techniques choose: the first that contains the point
 /// and all that a filter reads around it.

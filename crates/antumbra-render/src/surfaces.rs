@@ -1,14 +1,14 @@
 //! The targets that hold what the camera sees, and how later passes read them.
 
-use super::{Target, loaded, uniform};
-use crate::gpu::Gpu;
-use anyhow::Result;
-use glam::Vec3;
-use wgpu::TextureFormat;
+use crate::{
+    Gpu,
+    layout::{loaded, overwrite, uniform},
+};
+use wgpu::{TextureFormat, TextureView};
 
 /// Position relative to the eye (w = 1 where there is a surface), facet normal, shading normal and
 /// metalness, base colour and roughness.
-pub(super) const FORMATS: [TextureFormat; 4] = [
+pub(crate) const FORMATS: [TextureFormat; 4] = [
     TextureFormat::Rgba32Float,
     TextureFormat::Rgba32Float,
     TextureFormat::Rgba16Float,
@@ -20,14 +20,14 @@ pub(super) const FORMATS: [TextureFormat; 4] = [
 #[derive(Debug)]
 pub struct Surfaces {
     resolution: [u32; 2],
-    targets: [Target; 4],
-    depth: Target,
+    targets: [TextureView; 4],
+    depth: TextureView,
     pub(crate) layout: wgpu::BindGroupLayout,
     pub(crate) group: wgpu::BindGroup,
 }
 
 impl Surfaces {
-    pub(super) fn new(gpu: &Gpu, resolution: [u32; 2], frame: &wgpu::Buffer) -> Self {
+    pub(crate) fn new(gpu: &Gpu, resolution: [u32; 2], frame: &wgpu::Buffer) -> Self {
         let view = |label, format| gpu.target(label, resolution, format).create_view(&Default::default());
         let targets = FORMATS.map(|format| view("surfaces", format));
         let layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
@@ -50,18 +50,13 @@ impl Surfaces {
         self.resolution
     }
 
-    /// Positions of what is drawn, relative to the eye; `None` where nothing is. Waits.
-    ///
-    /// # Errors
-    /// If the device is lost.
-    pub fn read_positions(&self, gpu: &Gpu) -> Result<Vec<Option<Vec3>>> {
-        let bytes = gpu.read(self.targets[0].texture())?;
-        let number = |b: &[u8]| f32::from_ne_bytes([b[0], b[1], b[2], b[3]]);
-        let texels = bytes.chunks_exact(16).map(|texel| [0, 4, 8, 12].map(|at| number(&texel[at..])));
-        Ok(texels.map(|[x, y, z, there]| (there != 0.0).then_some(Vec3::new(x, y, z))).collect())
+    /// Positions of what is drawn, relative to the eye, four floats a pixel: w = 1 where there is a surface.
+    #[must_use]
+    pub fn positions(&self) -> &wgpu::Texture {
+        self.targets[0].texture()
     }
 
-    pub(super) fn begin<'e>(
+    pub(crate) fn begin<'e>(
         &self,
         encoder: &'e mut wgpu::CommandEncoder,
         timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
@@ -71,10 +66,10 @@ impl Surfaces {
 }
 
 /// A pass with cleared targets and reversed depth.
-pub(super) fn begin<'e>(
+pub(crate) fn begin<'e>(
     encoder: &'e mut wgpu::CommandEncoder,
-    targets: &[&Target],
-    depth: &Target,
+    targets: &[&TextureView],
+    depth: &TextureView,
     timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
 ) -> wgpu::RenderPass<'e> {
     let attachments: Vec<_> = targets.iter().map(|t| Some(overwrite(t))).collect();
@@ -90,17 +85,4 @@ pub(super) fn begin<'e>(
         occlusion_query_set: None,
         multiview_mask: None,
     })
-}
-
-/// A cleared colour attachment.
-pub(crate) fn overwrite(view: &Target) -> wgpu::RenderPassColorAttachment<'_> {
-    wgpu::RenderPassColorAttachment {
-        view,
-        depth_slice: None,
-        resolve_target: None,
-        ops: wgpu::Operations {
-            load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
-            store: wgpu::StoreOp::Store,
-        },
-    }
 }

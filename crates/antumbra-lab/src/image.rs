@@ -1,14 +1,14 @@
-//! Pictures of the lab: linear planes and 8-bit colour, and the files they become.
+//! Pictures of the lab: linear images and 8-bit colour, and the files they become.
 //!
-//! A [`Plane`] holds one number per pixel, here nearly always a visibility: 1 lit, 0 shadowed.
-//! It stays linear on its way to a file. [`Plane::to_gray_png`] maps 0..1 straight to 0..255, with
+//! A [`GrayImage`] holds one number per pixel, here nearly always a visibility: 1 lit, 0 shadowed.
+//! It stays linear on its way to a file. [`GrayImage::to_gray_png`] maps 0..1 straight to 0..255, with
 //! no sRGB curve: a visibility of 0.5 is the byte 128, and the bytes can be measured again.
 
 use std::io::{Cursor, Write};
 
 /// A linear single-channel image, row by row from the top left.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Plane {
+pub struct GrayImage {
     /// Pixels across.
     pub width: u32,
     /// Pixels down.
@@ -30,7 +30,7 @@ pub struct Rgba8Image {
 
 /// Why an image could not be made or encoded.
 #[derive(Debug, thiserror::Error)]
-pub enum PlaneError {
+pub enum ImageError {
     /// The number of values is not what the size asks for.
     #[error(
         "{width}×{height} pixels need {expected} values, got {got}: pass one value per pixel (and channel)"
@@ -85,28 +85,28 @@ pub enum PlaneError {
     },
 }
 
-fn check_length(width: u32, height: u32, channels: usize, got: usize) -> Result<(), PlaneError> {
+fn check_length(width: u32, height: u32, channels: usize, got: usize) -> Result<(), ImageError> {
     let expected = width as usize * height as usize * channels;
-    if expected == got { Ok(()) } else { Err(PlaneError::Length { width, height, expected, got }) }
+    if expected == got { Ok(()) } else { Err(ImageError::Length { width, height, expected, got }) }
 }
 
-impl Plane {
+impl GrayImage {
     /// Wraps values, row by row from the top left.
     ///
     /// # Errors
-    /// [`PlaneError::Length`] unless there are `width · height` of them.
-    pub fn new(width: u32, height: u32, values: Vec<f32>) -> Result<Self, PlaneError> {
+    /// [`ImageError::Length`] unless there are `width · height` of them.
+    pub fn new(width: u32, height: u32, values: Vec<f32>) -> Result<Self, ImageError> {
         check_length(width, height, 1, values.len())?;
         Ok(Self { width, height, values })
     }
 
-    /// A plane with one value everywhere.
+    /// A gray with one value everywhere.
     #[must_use]
     pub fn filled(width: u32, height: u32, value: f32) -> Self {
         Self { width, height, values: vec![value; width as usize * height as usize] }
     }
 
-    /// A plane computed from column and row.
+    /// A gray computed from column and row.
     #[must_use]
     pub fn from_fn(width: u32, height: u32, mut value: impl FnMut(u32, u32) -> f32) -> Self {
         let values = (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| value(x, y));
@@ -125,8 +125,8 @@ impl Plane {
     /// A copy of the rectangle whose left top pixel is (`x`, `y`).
     ///
     /// # Errors
-    /// [`PlaneError::Rectangle`] if it is empty or leaves the plane.
-    pub fn crop(&self, x: u32, y: u32, width: u32, height: u32) -> Result<Self, PlaneError> {
+    /// [`ImageError::Rectangle`] if it is empty or leaves the gray.
+    pub fn crop(&self, x: u32, y: u32, width: u32, height: u32) -> Result<Self, ImageError> {
         let values = crop(&self.values, [self.width, self.height], [x, y, width, height])?;
         Ok(Self { width, height, values })
     }
@@ -135,8 +135,8 @@ impl Plane {
     /// outside values are clamped, NaN becomes 0.
     ///
     /// # Errors
-    /// [`PlaneError::Png`] for an empty image.
-    pub fn to_gray_png(&self) -> Result<Vec<u8>, PlaneError> {
+    /// [`ImageError::Png`] for an empty image.
+    pub fn to_gray_png(&self) -> Result<Vec<u8>, ImageError> {
         let bytes: Vec<u8> = self.values.iter().map(|v| (v * 255.0).round() as u8).collect();
         encode_png([self.width, self.height], png::ColorType::Grayscale, &bytes)
     }
@@ -144,8 +144,8 @@ impl Plane {
     /// An OpenEXR file with one f32 channel "V", ZIP-compressed without loss: every value as it is.
     ///
     /// # Errors
-    /// [`PlaneError::Exr`] for an empty image.
-    pub fn to_exr(&self) -> Result<Vec<u8>, PlaneError> {
+    /// [`ImageError::Exr`] for an empty image.
+    pub fn to_exr(&self) -> Result<Vec<u8>, ImageError> {
         use exr::prelude::{AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer, LayerAttributes};
         use exr::prelude::{SmallVec, WritableImage};
         let samples = FlatSamples::F32(self.values.clone());
@@ -159,7 +159,7 @@ impl Plane {
             .write()
             .non_parallel()
             .to_buffered(&mut file)
-            .map_err(|source| PlaneError::Exr { width: self.width, height: self.height, source })?;
+            .map_err(|source| ImageError::Exr { width: self.width, height: self.height, source })?;
         Ok(file.into_inner())
     }
 }
@@ -168,8 +168,8 @@ impl Rgba8Image {
     /// Wraps bytes, four per pixel.
     ///
     /// # Errors
-    /// [`PlaneError::Length`] unless there are `4 · width · height` of them.
-    pub fn new(width: u32, height: u32, rgba: Vec<u8>) -> Result<Self, PlaneError> {
+    /// [`ImageError::Length`] unless there are `4 · width · height` of them.
+    pub fn new(width: u32, height: u32, rgba: Vec<u8>) -> Result<Self, ImageError> {
         check_length(width, height, 4, rgba.len())?;
         Ok(Self { width, height, rgba })
     }
@@ -177,8 +177,8 @@ impl Rgba8Image {
     /// An 8-bit RGBA PNG, tagged sRGB.
     ///
     /// # Errors
-    /// [`PlaneError::Png`] for an empty image.
-    pub fn to_png(&self) -> Result<Vec<u8>, PlaneError> {
+    /// [`ImageError::Png`] for an empty image.
+    pub fn to_png(&self) -> Result<Vec<u8>, ImageError> {
         encode_png([self.width, self.height], png::ColorType::Rgba, &self.rgba)
     }
 }
@@ -187,8 +187,8 @@ impl Rgba8Image {
 /// shadowable mask.
 ///
 /// # Errors
-/// [`PlaneError::Rectangle`] if it is empty or leaves the image.
-pub fn crop<T: Copy>(entries: &[T], size: [u32; 2], rectangle: [u32; 4]) -> Result<Vec<T>, PlaneError> {
+/// [`ImageError::Rectangle`] if it is empty or leaves the image.
+pub fn crop<T: Copy>(entries: &[T], size: [u32; 2], rectangle: [u32; 4]) -> Result<Vec<T>, ImageError> {
     let [image_width, image_height] = size;
     check_length(image_width, image_height, 1, entries.len())?;
     let [x, y, width, height] = rectangle;
@@ -196,7 +196,7 @@ pub fn crop<T: Copy>(entries: &[T], size: [u32; 2], rectangle: [u32; 4]) -> Resu
         length > 0 && u64::from(start) + u64::from(length) <= u64::from(limit)
     };
     if !fits(x, width, image_width) || !fits(y, height, image_height) {
-        return Err(PlaneError::Rectangle { x, y, width, height, image_width, image_height });
+        return Err(ImageError::Rectangle { x, y, width, height, image_width, image_height });
     }
     let rows = entries.chunks_exact(image_width as usize).skip(y as usize).take(height as usize);
     Ok(rows.flat_map(|row| &row[x as usize..(x + width) as usize]).copied().collect())
@@ -209,9 +209,13 @@ pub fn crop<T: Copy>(entries: &[T], size: [u32; 2], rectangle: [u32; 4]) -> Resu
 /// large, small ones stay visible, and blue against red survives the common colour deficiencies.
 ///
 /// # Errors
-/// [`PlaneError::Length`] if the three do not have the same number of pixels.
-pub fn error_heat_map(test: &Plane, truth: &Plane, shadowable: &[bool]) -> Result<Rgba8Image, PlaneError> {
-    let Plane { width, height, .. } = *truth;
+/// [`ImageError::Length`] if the three do not have the same number of pixels.
+pub fn error_heat_map(
+    test: &GrayImage,
+    truth: &GrayImage,
+    shadowable: &[bool],
+) -> Result<Rgba8Image, ImageError> {
+    let GrayImage { width, height, .. } = *truth;
     check_length(width, height, 1, test.values.len())?;
     check_length(width, height, 1, truth.values.len())?;
     check_length(width, height, 1, shadowable.len())?;
@@ -254,7 +258,7 @@ fn srgb_from_lab([l, a, b]: [f32; 3]) -> [u8; 3] {
     })
 }
 
-fn encode_png(size: [u32; 2], color: png::ColorType, bytes: &[u8]) -> Result<Vec<u8>, PlaneError> {
+fn encode_png(size: [u32; 2], color: png::ColorType, bytes: &[u8]) -> Result<Vec<u8>, ImageError> {
     let [width, height] = size;
     let encode = || -> Result<Vec<u8>, png::EncodingError> {
         let mut file = Vec::new();
@@ -270,7 +274,7 @@ fn encode_png(size: [u32; 2], color: png::ColorType, bytes: &[u8]) -> Result<Vec
         file.flush()?;
         Ok(file)
     };
-    encode().map_err(|source| PlaneError::Png { width, height, source })
+    encode().map_err(|source| ImageError::Png { width, height, source })
 }
 
 #[cfg(test)]
@@ -279,8 +283,8 @@ mod tests {
 
     #[test]
     fn half_visibility_is_byte_128_in_a_linear_png() {
-        let plane = Plane::new(4, 1, vec![0.0, 0.5, 1.0, 7.0]).unwrap();
-        let png = plane.to_gray_png().unwrap();
+        let gray = GrayImage::new(4, 1, vec![0.0, 0.5, 1.0, 7.0]).unwrap();
+        let png = gray.to_gray_png().unwrap();
         let mut reader = png::Decoder::new(Cursor::new(png)).read_info().unwrap();
         let mut bytes = vec![0; 4];
         reader.next_frame(&mut bytes).unwrap();
@@ -290,8 +294,8 @@ mod tests {
     #[test]
     fn exr_returns_every_value() {
         use exr::prelude::{ReadChannels, ReadLayers};
-        let plane = Plane::from_fn(37, 19, |x, y| (x as f32 * 0.1 - y as f32 / 7.0).sin());
-        let file = plane.to_exr().unwrap();
+        let gray = GrayImage::from_fn(37, 19, |x, y| (x as f32 * 0.1 - y as f32 / 7.0).sin());
+        let file = gray.to_exr().unwrap();
         let image = exr::prelude::read()
             .no_deep_data()
             .largest_resolution_level()
@@ -302,13 +306,13 @@ mod tests {
             .unwrap();
         let channel = &image.layer_data.channel_data.list[0];
         assert_eq!(channel.name.to_string(), "V");
-        assert_eq!(channel.sample_data.values_as_f32().collect::<Vec<_>>(), plane.values);
+        assert_eq!(channel.sample_data.values_as_f32().collect::<Vec<_>>(), gray.values);
     }
 
     #[test]
     fn heat_map_has_a_side_for_each_sign() {
-        let truth = Plane::filled(4, 1, 0.5);
-        let test = Plane::new(4, 1, vec![0.0, 0.5, 1.0, 1.0]).unwrap();
+        let truth = GrayImage::filled(4, 1, 0.5);
+        let test = GrayImage::new(4, 1, vec![0.0, 0.5, 1.0, 1.0]).unwrap();
         let map = error_heat_map(&test, &truth, &[true, true, true, false]).unwrap();
         let pixel = |i: usize| [map.rgba[4 * i], map.rgba[4 * i + 1], map.rgba[4 * i + 2]];
         assert!(pixel(0)[2] > pixel(0)[0], "too dark is blue: {:?}", pixel(0));
@@ -319,17 +323,17 @@ mod tests {
 
     #[test]
     fn heat_map_rejects_other_sizes() {
-        let small = Plane::filled(3, 1, 0.5);
-        assert!(error_heat_map(&small, &Plane::filled(4, 1, 0.5), &[true; 4]).is_err());
+        let small = GrayImage::filled(3, 1, 0.5);
+        assert!(error_heat_map(&small, &GrayImage::filled(4, 1, 0.5), &[true; 4]).is_err());
     }
 
     #[test]
     fn crop_takes_the_right_pixels_and_stays_inside() {
-        let plane = Plane::from_fn(4, 3, |x, y| (10 * y + x) as f32);
-        assert_eq!(plane.crop(1, 1, 2, 2).unwrap().values, [11.0, 12.0, 21.0, 22.0]);
-        assert!(plane.crop(3, 0, 2, 1).is_err());
-        assert!(plane.crop(u32::MAX, 0, 2, 1).is_err());
-        assert_eq!(plane.get(3, 2), Some(23.0));
-        assert_eq!(plane.get(4, 0), None);
+        let gray = GrayImage::from_fn(4, 3, |x, y| (10 * y + x) as f32);
+        assert_eq!(gray.crop(1, 1, 2, 2).unwrap().values, [11.0, 12.0, 21.0, 22.0]);
+        assert!(gray.crop(3, 0, 2, 1).is_err());
+        assert!(gray.crop(u32::MAX, 0, 2, 1).is_err());
+        assert_eq!(gray.get(3, 2), Some(23.0));
+        assert_eq!(gray.get(4, 0), None);
     }
 }
