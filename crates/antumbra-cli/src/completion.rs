@@ -18,12 +18,12 @@ pub(crate) struct Suggested(fn() -> Vec<&'static str>);
 
 /// Names of techniques and of groups of them.
 pub(crate) const TECHNIQUES: Suggested = Suggested(|| {
-    let names = technique::all().into_iter().map(|technique| technique.page().name);
+    let names = technique::all().into_iter().map(|technique| technique.about().name);
     names.chain(["all", "all-comparison", "all-basis", "all-geometry"]).collect()
 });
 /// Names of techniques, and `truth`.
 pub(crate) const TECHNIQUE_OR_TRUTH: Suggested = Suggested(|| {
-    let names = technique::all().into_iter().map(|technique| technique.page().name);
+    let names = technique::all().into_iter().map(|technique| technique.about().name);
     names.chain(["truth"]).collect()
 });
 /// Names of built-in scenes.

@@ -17,7 +17,7 @@ fn commands(document: &str) -> Vec<Vec<String>> {
 
 #[test]
 fn documents_show_commands_that_are_taken() {
-    let names: Vec<&str> = technique::all().iter().map(|technique| technique.page().name).collect();
+    let names: Vec<&str> = technique::all().iter().map(|technique| technique.about().name).collect();
     let mut seen = 0;
     for document in ["README.md", "CONTRIBUTING.md", "docs/bias.md", "docs/performance.md", "Makefile"] {
         for words in commands(document) {

@@ -103,12 +103,12 @@ pub fn measure(
 /// One entry of the results.
 fn timed((prepared, time): (&Prepared, TimeResult)) -> TechniqueTime {
     let shadows = &prepared.shadows;
-    let page = shadows.technique().page();
+    let about = shadows.technique().about();
     TechniqueTime {
-        name: page.name.into(),
+        name: about.name.into(),
         spec: technique::spec(shadows.technique()),
-        title: page.title.into(),
-        family: page.family,
+        title: about.title.into(),
+        family: about.family,
         time,
         memory: facts::memory(&shadows.memory()),
         work: facts::work(shadows),

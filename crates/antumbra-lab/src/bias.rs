@@ -174,7 +174,7 @@ impl Truths {
 
 /// Width of a technique's kernel.
 fn kernel(technique: &dyn Technique) -> u32 {
-    let mut technique = technique.boxed();
+    let mut technique = technique.clone_box();
     let parameters = technique.parameters();
     parameters.iter().find(|p| p.name == "kernel").and_then(|p| p.value().parse().ok()).unwrap_or(1)
 }

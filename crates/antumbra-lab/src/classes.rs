@@ -37,7 +37,7 @@ impl Classes {
     /// If the device is lost.
     pub fn read(session: &Session<'_>, prepared: &Prepared, visibility: &GrayImage) -> Result<Option<Self>> {
         let Some(numbers) = session.classes(prepared)? else { return Ok(None) };
-        let known = prepared.shadows.technique().classes();
+        let known = prepared.shadows.description().classes;
         Ok(Some(Self { picture: picture(visibility, &numbers, known)?, shares: shares(&numbers, known) }))
     }
 }

@@ -156,16 +156,16 @@ fn render(
 /// One entry of the results.
 fn entry(prepared: &Prepared, rendered: Rendered, time: TimeResult) -> TechniqueResult {
     let shadows = &prepared.shadows;
-    let page = shadows.technique().page();
-    let mut technique = shadows.technique().boxed();
+    let about = shadows.technique().about();
+    let mut technique = shadows.technique().clone_box();
     let settings = technique.parameters().iter().map(|p| (p.name.to_string(), value(&p.value()))).collect();
     let Rendered { scores, classes, regions, images } = rendered;
     TechniqueResult {
-        name: page.name.into(),
+        name: about.name.into(),
         spec: technique::spec(shadows.technique()),
-        title: page.title.into(),
-        family: page.family,
-        paper: page.paper.into(),
+        title: about.title.into(),
+        family: about.family,
+        paper: about.paper.into(),
         settings,
         scores,
         regions,

@@ -3,7 +3,7 @@
 
 use crate::{gpu::Gpu, shaders};
 use antumbra::{
-    CasterMesh, DEPTH_FORMAT, Options, ShadowMap, Size, Technique, View,
+    Capabilities, CasterMesh, DEPTH_FORMAT, Options, ShadowMap, Size, Technique, View,
     technique::{self, Bias, Caster},
 };
 use anyhow::{Context, Result, bail};
@@ -31,7 +31,8 @@ pub fn visibility(gpu: &Gpu, technique: &dyn Technique, caster: f32, receivers: 
 /// As [`visibility`]; a technique that keeps triangles, which has no texels to filter.
 pub fn edge(gpu: &Gpu, technique: &dyn Technique, positions: &[f32]) -> Result<Vec<f32>> {
     let texel = 2.0 / SIZE.width as f32;
-    if technique.caster() != Caster::Depth {
+    let device = Capabilities::of(&gpu.device);
+    if technique.describe(&device)?.caster != Caster::Depth {
         bail!("{} keeps triangles and filters no texels", technique::spec(technique));
     }
     if let Some(far) = positions.iter().find(|p| !(-16.0..=16.0).contains(*p)) {
@@ -55,7 +56,7 @@ fn answers(
         ShadowMap::new(&gpu.device, technique, options).with_context(|| technique::spec(technique))?;
     shadows.prepare(&gpu.queue, &[view()])?;
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    match technique.caster() {
+    match shadows.description().caster {
         Caster::Depth => {
             let flat = flat(gpu, caster);
             shadows.encode(&mut encoder, |pass| {

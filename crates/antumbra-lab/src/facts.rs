@@ -42,7 +42,7 @@ pub fn work(shadows: &ShadowMap) -> Work {
     Work {
         bytes_per_texel: plain,
         bytes_per_texel_with_mips: with_mips,
-        lookups: shadows.technique().lookups(),
+        lookups: shadows.description().fetches,
         passes: shadows.passes().into_iter().map(String::from).collect(),
     }
 }

@@ -149,18 +149,12 @@ fn channels(
     level: u32,
     take: &mut dyn FnMut(Picture) -> Result<()>,
 ) -> Result<()> {
-    let technique = shadows.technique();
-    let maps = technique.maps(&antumbra::Capabilities::of(&gpu.device))?;
-    for (index, map) in maps.iter().enumerate() {
+    let described = shadows.description();
+    for (index, map) in described.maps.iter().enumerate() {
         let Some(texture) = shadows.map_texture(index) else { continue };
         let levels = texture.mip_level_count();
         if level >= levels {
-            bail!(
-                "--level {level}: {} of {} has levels 0 to {}",
-                map.name,
-                technique.page().name,
-                levels - 1
-            );
+            bail!("--level {level}: {} of {} has levels 0 to {}", map.name, described.about.name, levels - 1);
         }
         let size = [texture.width(), texture.height()].map(|n| (n >> level).max(1));
         // Views begin at multiples of the map's layers; those that the light does not have were never filled.
@@ -171,7 +165,7 @@ fn channels(
                 let (view, layer) = (layer / map.layers, layer % map.layers);
                 let cascade = cascade_prefix(shadows.views(), view as usize);
                 let name = format!("{cascade}{}-{layer}-{channel}", map.name.replace(' ', "-"));
-                take(Picture::new(name, plane, technique.stored_zero(index)))?;
+                take(Picture::new(name, plane, map.zero_level))?;
             }
         }
     }

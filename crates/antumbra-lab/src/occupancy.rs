@@ -41,7 +41,7 @@ impl Occupancy {
     /// # Errors
     /// If the device is lost.
     pub fn read(gpu: &Gpu, shadows: &ShadowMap) -> Result<Option<Self>> {
-        if !shadows.technique().caster().keeps_ids() {
+        if !shadows.description().caster.keeps_ids() {
             return Ok(None);
         }
         let (triangles, capacity) = (shadows.triangles_drawn(), shadows.capacity());

@@ -112,7 +112,7 @@ impl<'g> Session<'g> {
         self.left_out.extend(left_out);
         let views = self.fit(first)?;
         self.set_views(first, &views)?;
-        let ids = |prepared: &&mut Prepared| prepared.shadows.technique().caster().keeps_ids();
+        let ids = |prepared: &&mut Prepared| prepared.shadows.description().caster.keeps_ids();
         for prepared in self.prepared[first..].iter_mut().filter(ids) {
             prepared.draw_maps(self.gpu, &self.scene)?;
         }
@@ -278,7 +278,7 @@ impl<'g> Session<'g> {
         let frames: Vec<_> = std::iter::once(None).chain(self.prepared.iter().map(Some)).collect();
         let mut techniques = self.time_frames(&frames, rounds, progress)?;
         let unshadowed = techniques.remove(0);
-        let hard = self.prepared.iter().position(|p| p.shadows.technique().page().name == "hard");
+        let hard = self.prepared.iter().position(|p| p.shadows.technique().about().name == "hard");
         timing::relate(&mut techniques, &unshadowed, hard);
         Ok(Times { unshadowed, techniques })
     }

@@ -29,13 +29,14 @@ pub fn techniques(specs: &[String], kernel: u32) -> Result<Vec<Box<dyn Technique
 fn members(spec: &str) -> Result<Vec<String>> {
     let all = technique::all();
     if spec == "all" {
-        return Ok(all.iter().map(|t| t.page().name.into()).collect());
+        return Ok(all.iter().map(|t| t.about().name.into()).collect());
     }
     let Some(family) = spec.strip_prefix("all-") else { return Ok(vec![spec.into()]) };
-    let in_family = all.iter().filter(|t| t.page().family.name() == family);
-    let names: Vec<String> = in_family.map(|t| t.page().name.into()).collect();
+    let in_family = all.iter().filter(|t| t.about().family.name() == family);
+    let names: Vec<String> = in_family.map(|t| t.about().name.into()).collect();
     if names.is_empty() {
-        let known: BTreeSet<String> = all.iter().map(|t| format!("all-{}", t.page().family.name())).collect();
+        let known: BTreeSet<String> =
+            all.iter().map(|t| format!("all-{}", t.about().family.name())).collect();
         let known: Vec<String> = known.into_iter().collect();
         bail!("'{spec}' names no techniques; groups: all, {}", known.join(", "));
     }

@@ -48,7 +48,7 @@ fn main() {
         let gpu = opened();
         let session = prepare(&gpu, "contact", few(17), &["dpm", "hard", "spsm"]).unwrap();
         let kept: Vec<_> =
-            session.prepared().iter().map(|p| (p.entry, p.shadows.technique().page().name)).collect();
+            session.prepared().iter().map(|p| (p.entry, p.shadows.technique().about().name)).collect();
         assert_eq!(kept, [(1, "hard"), (2, "spsm")]);
         let [left_out] = session.left_out() else { panic!("{:?}", session.left_out()) };
         assert_eq!(left_out.spec, "dpm");

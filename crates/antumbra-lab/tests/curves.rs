@@ -2,7 +2,10 @@
 
 #![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
 
-use antumbra::technique::{self, csm, csm::Csm, esm, vsm};
+use antumbra::{
+    Capabilities,
+    technique::{self, csm, csm::Csm, esm, vsm},
+};
 use antumbra_lab::{curve, gpu::Gpu};
 use antumbra_testing::Trials;
 
@@ -53,10 +56,10 @@ fn formulas(gpu: &antumbra_testing::Gpu) {
 
 fn every_technique(gpu: &antumbra_testing::Gpu) {
     for technique in technique::all() {
-        let name = technique.page().name;
+        let name = technique.about().name;
         let curve = measure(gpu, name);
         let (first, last) = (curve[0], curve[curve.len() - 1]);
-        let slack = 0.01 + technique.ripple();
+        let slack = 0.01 + technique.describe(&Capabilities::of(&gpu.device)).unwrap().ringing;
         assert!(first >= 1.0 - slack && last <= slack, "{name}: from {first} to {last}");
         let lit = curve.iter().filter(|v| **v > 0.5).count();
         assert!((195..=250).contains(&lit), "{name}: lit at {lit} of 401 receivers, half of them in front");

@@ -6,7 +6,7 @@ mod common;
 
 use antumbra::{
     Capabilities, Hard, Parameter, ShadowMap, Size, Stratified, Technique, Unsupported, technique,
-    technique::{Bias, BiasTerms, Binding, Family, Map, Page, Uniform},
+    technique::{About, Bias, BiasTerms, Binding, Description, Family},
 };
 use antumbra_lab::{gpu::Gpu, image::GrayImage, specs};
 use antumbra_scene::{
@@ -187,33 +187,22 @@ fn holes(gpu: &antumbra_testing::Gpu) {
 struct Gradients([f32; 4]);
 
 impl Technique for Gradients {
-    fn page(&self) -> Page {
-        Page { name: "gradients", title: "Gradients", family: Family::Comparison, paper: "none" }
+    fn about(&self) -> About {
+        About { name: "gradients", title: "Gradients", family: Family::Comparison, paper: "none" }
     }
     fn parameters(&mut self) -> Vec<Parameter<'_>> {
         Vec::new()
     }
-    fn maps(&self, _: &Capabilities) -> Result<Vec<Map>, Unsupported> {
-        Ok(Vec::new())
+    fn describe(&self, _: &Capabilities) -> Result<Description, Unsupported> {
+        let wgsl = "fn gradients_visibility(casters: texture_depth_2d_array, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f) -> f32 {
+            return dot(vec4f(ddx, ddy), vec4f(gradients_a(), gradients_b(), gradients_c(), gradients_d()));
+        }";
+        let mut described = Description::new(self.about(), wgsl);
+        described.bindings = vec![Binding::Depth];
+        described.settings = ["a", "b", "c", "d"].into_iter().zip(self.0).collect();
+        Ok(described)
     }
-    fn bindings(&self) -> Vec<Binding> {
-        vec![Binding::Depth]
-    }
-    fn wgsl(&self) -> &'static str {
-        "fn gradients_visibility(casters: texture_depth_2d_array, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f, a: f32, b: f32, c: f32, d: f32) -> f32 {
-            return dot(vec4f(ddx, ddy), vec4f(a, b, c, d));
-        }"
-    }
-    fn uniforms(&self) -> Vec<Uniform> {
-        ["a", "b", "c", "d"].into_iter().zip(self.0).collect()
-    }
-    fn reach_texels(&self) -> f32 {
-        0.5
-    }
-    fn lookups(&self) -> u32 {
-        0
-    }
-    fn boxed(&self) -> Box<dyn Technique> {
+    fn clone_box(&self) -> Box<dyn Technique> {
         Box::new(self.clone())
     }
 }
@@ -290,7 +279,7 @@ fn spot(gpu: &antumbra_testing::Gpu) {
     let (hard, ideal) = (shot.hard_truth(), shot.light_space_ideal(&view));
     for map in &maps {
         let answer = shot.visibility(map);
-        let name = map.technique().page().name;
+        let name = map.technique().about().name;
         let bound = SPOT_BOUNDS.iter().find(|(n, _)| *n == name).map_or(SPOT_BOUND, |(_, bound)| *bound);
         let rmse = score(&answer, &ideal).rmse;
         assert!(rmse <= bound, "{name}: RMSE {rmse} is above {bound}");

@@ -80,10 +80,10 @@ fn main() {
             .add(format!("{name}: every technique is near its ideal"), move |gpu| near_the_ideal(gpu, scene));
     }
     for (what, scene, broken) in broken() {
-        let name = format!("{}: rejected: {what} ({})", SCENES[scene], broken.page().name);
+        let name = format!("{}: rejected: {what} ({})", SCENES[scene], broken.about().name);
         trials.add(name, move |gpu| {
             let score = Sight::new(gpu, scene).score(&broken);
-            let name = broken.page().name;
+            let name = broken.about().name;
             assert!(beyond(gpu, name, scene, &score).is_some(), "passes for {name}: {score:?}");
         });
     }
@@ -203,7 +203,7 @@ fn beyond(gpu: &Gpu, name: &str, scene: usize, score: &Score) -> Option<String> 
 fn near_the_ideal(gpu: &Gpu, scene: usize) {
     let mut sight = Sight::new(gpu, scene);
     let mut check = |t: &dyn Technique| {
-        let (name, score) = (t.page().name, sight.score(t));
+        let (name, score) = (t.about().name, sight.score(t));
         if std::env::var_os("ANTUMBRA_MEASURE").is_some() {
             let [leak, dark] = [score.leak, score.over_darkening].map(|v| v.unwrap_or(0.0));
             eprintln!("{name} on {}: [{:.4}, {leak:.4}, {dark:.4}]", SCENES[scene], score.rmse);
@@ -216,34 +216,39 @@ fn near_the_ideal(gpu: &Gpu, scene: usize) {
 
 /// What the bounds must reject, each on the scene that shows it best.
 fn broken() -> Vec<(&'static str, usize, Broken)> {
-    let stored = |format, spec| Broken { format: Some(format), ..Broken::new(spec) };
-    let uniform = |name, value, spec| Broken { uniform: Some((name, value)), ..Broken::new(spec) };
-    let unbiased = |spec| Broken { bias: Some(BiasTerms::NONE), ..Broken::new(spec) };
+    let stored = |format, spec| {
+        Broken::new(spec).with(move |described| described.maps.iter_mut().for_each(|map| map.format = format))
+    };
+    let unbiased = |spec| Broken::new(spec).with(|described| described.bias = BiasTerms::NONE);
     let aside = "compare, uv + vec2f(0.5) / vec2f(textureDimensions(casters)), view";
     // Mips spread what an empty texel stores: the bounds were measured with the level of the longer side.
     let zero = Broken::saying(
         "esm.kernel=5,sampling=trilinear",
-        "exp(c * depth), 0.0, 0.0",
-        "select(exp(c * depth), 0.0, depth == 1.0), 0.0, 0.0",
+        "exp(esm_c() * depth), 0.0, 0.0",
+        "select(exp(esm_c() * depth), 0.0, depth == 1.0), 0.0, 0.0",
     );
     vec![
-        ("exponents of 32 bits in 16", LAYERS, uniform("positive", 40.0, "evsm.format=float16,kernel=5")),
+        (
+            "exponents of 32 bits in 16",
+            LAYERS,
+            Broken::new("evsm.format=float16,kernel=5").setting("positive", 40.0),
+        ),
         ("exponentials in 16 bits", CONTACT, stored(wgpu::TextureFormat::R16Float, "esm.kernel=5")),
         ("moments in 16 bits", CONTACT, stored(wgpu::TextureFormat::Rg16Float, "vsm.kernel=5")),
-        ("a series without offset", LAYERS, uniform("offset", 0.0, "csm.kernel=5")),
+        ("a series without offset", LAYERS, Broken::new("csm.kernel=5").setting("offset", 0.0)),
         ("a quarter of the terms", CONTACT, Broken::new("csm.terms=4,kernel=5")),
         (
             "neither slope nor floor of the variance",
             NOON,
-            uniform("least_variance", 0.0, "vsm.slope=0,kernel=5"),
+            Broken::new("vsm.slope=0,kernel=5").setting("least_variance", 0.0),
         ),
-        ("moments without bias", LAYERS, uniform("moment_bias", 0.0, "msm.kernel=5")),
+        ("moments without bias", LAYERS, Broken::new("msm.kernel=5").setting("moment_bias", 0.0)),
         ("empty texels that store zero", FENCE, zero),
         ("no bias", LAYERS, unbiased("hard")),
         ("no bias", FENCE, unbiased("pcf.kernel=5")),
         ("a kernel nearly twice as wide", LAYERS, Broken::new("pcf.kernel=9")),
         ("half a texel aside", LAYERS, Broken::saying("pcf.kernel=5", "compare, uv, view", aside)),
-        ("weights that do not sum to one", FENCE, Broken { weights: 0.97, ..Broken::new("pcf.kernel=5") }),
+        ("weights that do not sum to one", FENCE, Broken::new("pcf.kernel=5").weights(0.97)),
         ("a tap dropped", FENCE, Broken::saying("poisson.kernel=5", "var i = 0u; i <", "var i = 1u; i <")),
         ("a tap dropped", FENCE, Broken::saying("stratified", "k < COUNT", "k + 1u < COUNT")),
         (
@@ -252,7 +257,7 @@ fn broken() -> Vec<(&'static str, usize, Broken)> {
             Broken::saying("packed", "vec2f(0.5, -0.5)", "vec2f(0.0, 0.0)"),
         ),
         ("a shallow decay", CONTACT, Broken::new("esm.c=20,kernel=5")),
-        ("a blur that brightens", FENCE, Broken { weights: 1.02, ..Broken::new("vsm.kernel=5") }),
+        ("a blur that brightens", FENCE, Broken::new("vsm.kernel=5").weights(1.02)),
         ("one warp", LAYERS, Broken::new("evsm.moments=two,kernel=5")),
     ]
 }

@@ -31,7 +31,7 @@ impl Lookup {
     /// or a negative number where there is no surface.
     #[must_use]
     pub fn classes(gpu: &Gpu, scene: &GpuScene, shadows: &ShadowMap) -> Option<Self> {
-        let any = !shadows.technique().classes().is_empty();
+        let any = !shadows.description().classes.is_empty();
         any.then(|| Self::asking(gpu, scene, shadows, shaders::CLASS))
     }
 

@@ -54,15 +54,17 @@ mod tests {
         for (name, text) in alone.into_iter().chain([("picture", PICTURE)]) {
             shaders.add(name, text.into(), &[], Needs::LEAST);
         }
-        let device = Capabilities { features: wgpu::Features::empty(), limits: wgpu::Limits::default() };
+        let device = Capabilities::least();
         let plain = Options::from(Size::square(64)).views(4);
         let asking = plain.clone().cutouts(true);
         let all = technique::all();
         for (technique, options) in all.iter().flat_map(|t| [(t, &plain), (t, &asking)]) {
-            let name = technique.page().name;
-            let covers = if options.cutouts && technique.caster().keeps_ids() { COVERS } else { "" };
-            let receiver = |group| ShaderText::receiver(technique.as_ref(), &device, options, group).text();
-            let class = (!technique.classes().is_empty()).then_some(("class", CLASS, 1));
+            let described = technique.describe(&device).unwrap();
+            let name = described.about.name;
+            let covers = if options.cutouts && described.caster.keeps_ids() { COVERS } else { "" };
+            let receiver =
+                |group| ShaderText::receiver(technique.as_ref(), &device, options, group).unwrap().text();
+            let class = (!described.classes.is_empty()).then_some(("class", CLASS, 1));
             for (what, text, group) in [("visibility", VISIBILITY, 1)].into_iter().chain(class) {
                 let text = format!("{text}{covers}\n{}", receiver(group));
                 shaders.add(&format!("{name}: {what}"), text, &[], Needs::LEAST);

@@ -173,7 +173,7 @@ fn run(bench: &Workbench<'_>) -> Result<Page> {
     let specs: Vec<String> = techniques.iter().map(|t| technique::spec(t.as_ref())).collect();
     let family = |spec: &str| -> String {
         let found = specs.iter().position(|s| s == spec);
-        found.map_or(String::new(), |i| techniques[i].page().family.name().into())
+        found.map_or(String::new(), |i| techniques[i].about().family.name().into())
     };
     let mut rows = Vec::new();
     let mut page = Page::default();

@@ -2,31 +2,17 @@
 
 use antumbra::{
     Capabilities, Parameter, Technique, Unsupported, technique,
-    technique::{
-        Adaptive, BiasTerms, Binding, Caster, Class, Constant, Coverage, DepthSpace, Map, Page, Pass,
-        Uniform, Width,
-    },
+    technique::{About, Constant, Description, Pass},
 };
+use std::{fmt, sync::Arc};
 
-/// A technique with one thing wrong; everything else is that of `inner`.
-#[derive(Debug, Clone)]
+type Edit = Arc<dyn Fn(&mut Description) + Send + Sync>;
+
+/// A technique whose description was edited; everything else is that of `inner`.
+#[derive(Clone)]
 pub struct Broken {
-    /// The whole technique.
-    pub inner: Box<dyn Technique>,
-    /// Its WGSL.
-    pub wgsl: &'static str,
-    /// Factor of all kernel weights.
-    pub weights: f32,
-    /// A uniform with a wrong value.
-    pub uniform: Option<Uniform>,
-    /// Storage that it was not made for.
-    pub format: Option<wgpu::TextureFormat>,
-    /// A bias that it was not made for.
-    pub bias: Option<BiasTerms>,
-    /// Texels that triangles are drawn to.
-    pub coverages: Option<&'static [Coverage]>,
-    /// Takes one texel where it should interpolate by itself.
-    pub careless: bool,
+    inner: Box<dyn Technique>,
+    edits: Vec<Edit>,
 }
 
 impl Broken {
@@ -37,110 +23,79 @@ impl Broken {
     #[must_use]
     #[allow(clippy::expect_used, reason = "tests fail by panicking")]
     pub fn new(spec: &str) -> Self {
-        let inner = technique::parse(spec).expect("a technique");
-        Self {
-            wgsl: inner.wgsl(),
-            inner,
-            weights: 1.0,
-            uniform: None,
-            format: None,
-            bias: None,
-            coverages: None,
-            careless: false,
-        }
+        Self { inner: technique::parse(spec).expect("a technique"), edits: Vec::new() }
+    }
+
+    /// With this wrong in its description, too.
+    #[must_use]
+    pub fn with(mut self, edit: impl Fn(&mut Description) + Send + Sync + 'static) -> Self {
+        self.edits.push(Arc::new(edit));
+        self
     }
 
     /// With other words in its WGSL.
     ///
     /// # Panics
-    /// If `right` is not in it.
+    /// When it is described, if `right` is not in it.
     #[must_use]
     pub fn saying(spec: &str, right: &str, wrong: &str) -> Self {
-        let plain = Self::new(spec);
-        assert!(plain.wgsl.contains(right), "{right}");
-        Self { wgsl: plain.wgsl.replace(right, wrong).leak(), ..plain }
+        let [right, wrong] = [right, wrong].map(String::from);
+        Self::new(spec).with(move |described| {
+            assert!(described.wgsl.contains(&right), "{right}");
+            described.wgsl = described.wgsl.replace(&right, &wrong).into();
+        })
+    }
+
+    /// With another value of a setting.
+    ///
+    /// # Panics
+    /// When it is described, if it has no such setting.
+    #[must_use]
+    pub fn setting(self, name: &'static str, wrong: f32) -> Self {
+        self.with(move |described| {
+            let setting = described.settings.iter_mut().find(|(n, _)| *n == name);
+            let Some((_, value)) = setting else { panic!("no setting {name}") };
+            *value = wrong;
+        })
+    }
+
+    /// With this factor of all kernel weights.
+    #[must_use]
+    pub fn weights(self, factor: f32) -> Self {
+        self.with(move |described| {
+            for pass in described.maps.iter_mut().flat_map(|map| &mut map.passes) {
+                if let Pass::Blur(kernel, _) = pass {
+                    kernel.taps.iter_mut().for_each(|w| *w *= factor);
+                }
+            }
+            for constant in &mut described.constants {
+                if let Constant::Array(_, values) = constant {
+                    values.iter_mut().for_each(|w| *w *= factor);
+                }
+            }
+        })
+    }
+}
+
+impl fmt::Debug for Broken {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "Broken {:?}", self.inner)
     }
 }
 
 impl Technique for Broken {
-    fn page(&self) -> Page {
-        self.inner.page()
+    fn about(&self) -> About {
+        self.inner.about()
     }
     fn parameters(&mut self) -> Vec<Parameter<'_>> {
         self.inner.parameters()
     }
-    fn jitter(&self) -> Vec<glam::Vec2> {
-        self.inner.jitter()
+    fn describe(&self, device: &Capabilities) -> Result<Description, Unsupported> {
+        let mut described = self.inner.describe(device)?;
+        self.edits.iter().for_each(|edit| edit(&mut described));
+        Ok(described)
     }
-    fn maps(&self, device: &Capabilities) -> Result<Vec<Map>, Unsupported> {
-        let mut maps = self.inner.maps(device)?;
-        for map in &mut maps {
-            map.format = self.format.unwrap_or(map.format);
-            for pass in &mut map.passes {
-                if let Pass::Blur(kernel, _) = pass {
-                    kernel.taps.iter_mut().for_each(|w| *w *= self.weights);
-                }
-            }
-        }
-        Ok(maps)
-    }
-    fn caster(&self) -> Caster {
-        self.coverages.map_or_else(|| self.inner.caster(), Caster::Triangles)
-    }
-    fn bindings(&self) -> Vec<Binding> {
-        self.inner.bindings()
-    }
-    fn wgsl(&self) -> &'static str {
-        self.wgsl
-    }
-    fn uniforms(&self) -> Vec<Uniform> {
-        let wrong = |u: Uniform| self.uniform.filter(|w| w.0 == u.0).unwrap_or(u);
-        self.inner.uniforms().into_iter().map(wrong).collect()
-    }
-    fn widths(&self) -> Vec<(&'static str, Width)> {
-        self.inner.widths()
-    }
-    fn blur(&self) -> Option<Adaptive> {
-        self.inner.blur()
-    }
-    fn constants(&self) -> Vec<Constant> {
-        let mut constants = self.inner.constants();
-        for constant in &mut constants {
-            if let Constant::Array(_, values) = constant {
-                values.iter_mut().for_each(|w| *w *= self.weights);
-            }
-        }
-        constants
-    }
-    fn parts(&self, device: &Capabilities) -> Vec<&'static str> {
-        let parts = self.inner.parts(device);
-        if self.careless && parts.contains(&"level_manual") { vec!["lookup_nearest"] } else { parts }
-    }
-    fn classes(&self) -> &'static [Class] {
-        self.inner.classes()
-    }
-    fn bias(&self) -> BiasTerms {
-        self.bias.unwrap_or_else(|| self.inner.bias())
-    }
-    fn depth_step(&self) -> f32 {
-        self.inner.depth_step()
-    }
-    fn depth_space(&self) -> DepthSpace {
-        self.inner.depth_space()
-    }
-    fn reach_texels(&self) -> f32 {
-        self.inner.reach_texels()
-    }
-    fn ripple(&self) -> f32 {
-        self.inner.ripple()
-    }
-    fn stored_zero(&self, map: usize) -> f32 {
-        self.inner.stored_zero(map)
-    }
-    fn lookups(&self) -> u32 {
-        self.inner.lookups()
-    }
-    fn boxed(&self) -> Box<dyn Technique> {
+    fn clone_box(&self) -> Box<dyn Technique> {
         Box::new(self.clone())
     }
 }

@@ -10,12 +10,23 @@ use std::collections::BTreeSet;
 /// A technique, and what was set, in this order.
 type Set = (Box<dyn Technique>, Vec<String>);
 
+/// Each technique in its defaults and in the [variants](Technique::variants) that it says are worth testing.
+#[must_use]
+pub fn variants() -> Vec<String> {
+    let of = |technique: Box<dyn Technique>| {
+        let name = technique.about().name;
+        let variants = technique.variants().into_iter().map(move |settings| format!("{name}.{settings}"));
+        [name.to_string()].into_iter().chain(variants)
+    };
+    technique::all().into_iter().flat_map(of).collect()
+}
+
 /// Each technique in its defaults and with each of its settings changed by itself, as
 /// [`technique::parse`] reads them. Numbers are tried at both ends of their range and next to the lower
 /// one, all values where there are few.
 #[must_use]
 pub fn single() -> Vec<String> {
-    specs(|technique| singles(&(technique.boxed(), Vec::new())))
+    specs(|technique| singles(&(technique.clone_box(), Vec::new())))
 }
 
 /// Beside those of [`single`] each choice with every other choice, and each number with each other
@@ -23,7 +34,7 @@ pub fn single() -> Vec<String> {
 #[must_use]
 pub fn many() -> Vec<String> {
     specs(|technique| {
-        let alone = (technique.boxed(), Vec::new());
+        let alone = (technique.clone_box(), Vec::new());
         let mut sets = singles(&alone);
         // A setting may widen the range of those that come before it, too.
         sets.extend(sets.clone().iter().flat_map(singles));
@@ -36,8 +47,8 @@ fn specs(sets: impl Fn(&dyn Technique) -> Vec<Set>) -> Vec<String> {
     let mut known = BTreeSet::new();
     let mut specs = Vec::new();
     for technique in technique::all() {
-        let name = technique.page().name;
-        let plain = (technique.boxed(), Vec::new());
+        let name = technique.about().name;
+        let plain = (technique.clone_box(), Vec::new());
         for (technique, settings) in [plain].into_iter().chain(sets(technique.as_ref())) {
             if known.insert(technique::spec(technique.as_ref())) {
                 let dot = if settings.is_empty() { "" } else { "." };
@@ -51,9 +62,9 @@ fn specs(sets: impl Fn(&dyn Technique) -> Vec<Set>) -> Vec<String> {
 /// A set with each of its settings changed.
 fn singles((technique, settings): &Set) -> Vec<Set> {
     let mut sets = Vec::new();
-    for (name, values) in technique.boxed().parameters().iter().map(|p| (p.name, values(p))) {
+    for (name, values) in technique.clone_box().parameters().iter().map(|p| (p.name, values(p))) {
         for value in values {
-            let mut technique = technique.boxed();
+            let mut technique = technique.clone_box();
             if set(technique.as_mut(), name, &value).is_ok() {
                 let mut settings = settings.clone();
                 settings.push(format!("{name}={value}"));
@@ -67,12 +78,12 @@ fn singles((technique, settings): &Set) -> Vec<Set> {
 /// Every combination of choices.
 fn products(alone: Set) -> Vec<Set> {
     let is_choice = |p: &Parameter<'_>| matches!(p.field, Field::Choice(_));
-    let mut plain = alone.0.boxed();
+    let mut plain = alone.0.clone_box();
     let choices: Vec<_> =
         plain.parameters().iter().filter(|p| is_choice(p)).map(|p| (p.name, values(p))).collect();
     choices.into_iter().fold(vec![alone], |sets, (name, values)| {
         let with = |(technique, settings): &Set, value: &String| {
-            let (mut technique, mut settings) = (technique.boxed(), settings.clone());
+            let (mut technique, mut settings) = (technique.clone_box(), settings.clone());
             set(technique.as_mut(), name, value).ok()?;
             settings.push(format!("{name}={value}"));
             Some((technique, settings))
@@ -112,7 +123,7 @@ mod tests {
             technique::parse(spec).unwrap();
         }
         for mut technique in technique::all() {
-            let name = technique.page().name;
+            let name = technique.about().name;
             for p in technique.parameters() {
                 let Field::Choice(choice) = &p.field else { continue };
                 for value in choice.names().iter().filter(|value| **value != p.value()) {

@@ -139,7 +139,7 @@ pub fn run(
 
     let mut encoder = device.create_command_encoder(&Default::default());
     shadows.prepare(queue, &[view])?;
-    if technique.caster() == Caster::Depth {
+    if shadows.description().caster == Caster::Depth {
         shadows.encode(&mut encoder, |pass| {
             let matrix = common::uniform(device, &matrices, pass.view().clip_from_world);
             pass.set_pipeline(&cast);

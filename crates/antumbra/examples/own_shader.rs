@@ -108,7 +108,7 @@ pub fn run(
             Cascades::new(3),
         )?;
         shadows.prepare(queue, &views)?;
-        if technique.caster() == Caster::Depth {
+        if shadows.description().caster == Caster::Depth {
             // Of the views of `prepare`, or of several for each (`stratified`).
             let casts = shadows.caster_views().iter();
             let matrices: Vec<_> =

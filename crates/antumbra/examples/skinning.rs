@@ -134,7 +134,7 @@ pub fn run(
         pass.dispatch_workgroups(count.div_ceil(64), 1, 1);
     }
     shadows.prepare(queue, &[view])?;
-    if technique.caster() == Caster::Depth {
+    if shadows.description().caster == Caster::Depth {
         shadows.encode(&mut encoder, |pass| {
             let matrix = common::uniform(device, &matrices, pass.view().clip_from_world);
             pass.set_pipeline(&cast);

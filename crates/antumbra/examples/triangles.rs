@@ -49,9 +49,6 @@ pub fn run(
     spec: &str,
 ) -> Result<Vec<u8>, Box<dyn std::error::Error>> {
     let technique = technique::parse(spec)?;
-    if technique.caster() == Caster::Depth {
-        return Err(format!("{spec} keeps depth: its casters are drawn as in the example hello").into());
-    }
     let meshes = [Mesh::boxes(device, &gate()), Mesh::boxes(device, &[(Vec3::ZERO, Vec3::splat(0.5))])];
 
     // 1. Each mesh once: positions and indices, for shaders to read. Where it is may change.
@@ -68,6 +65,9 @@ pub fn run(
     let capacity = Capacity { triangles, ..Capacity::default() };
     let options = Options::from(Size::square(128)).capacity(capacity);
     let mut shadows = ShadowMap::new(device, technique.as_ref(), options)?;
+    if shadows.description().caster == Caster::Depth {
+        return Err(format!("{spec} keeps depth: its casters are drawn as in the example hello").into());
+    }
     let scene = Bounds { min: Vec3::new(-6.0, -0.2, -6.0), max: Vec3::new(6.0, 2.1, 6.0) };
     let sun = Light::Directional { direction: Vec3::new(0.7, -1.0, -0.25) };
     let (size, margin_texels) = (shadows.size(), shadows.margin_texels());

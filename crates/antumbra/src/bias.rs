@@ -1,6 +1,6 @@
 //! Bias: what keeps a surface from shadowing itself.
 
-use crate::{error::SettingError, technique::Technique};
+use crate::error::SettingError;
 use std::{fmt, str::FromStr};
 
 /// How far receivers are pulled towards the light before they are compared.
@@ -10,7 +10,7 @@ use std::{fmt, str::FromStr};
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Bias {
-    /// What the technique needs ([`Technique::bias`]), no more.
+    /// What the technique needs ([`Description::bias`](crate::technique::Description::bias)), no more.
     #[default]
     Auto,
     /// These terms, whatever the technique.
@@ -21,11 +21,11 @@ impl Bias {
     /// No bias at all.
     pub const NONE: Self = Self::Fixed(BiasTerms::NONE);
 
-    /// The terms for a technique.
+    /// The terms, where `auto` is what the technique needs.
     #[must_use]
-    pub fn terms(self, technique: &dyn Technique) -> BiasTerms {
+    pub fn terms(self, auto: BiasTerms) -> BiasTerms {
         match self {
-            Self::Auto => technique.bias(),
+            Self::Auto => auto,
             Self::Fixed(terms) => terms,
         }
     }
@@ -112,8 +112,9 @@ pub struct BiasTerms {
     /// times as steep, but at most 1.5 texels of depth per texel steeper: a bias that grows with the distance
     /// in the kernel. The comparison family alone reads it.
     pub receiver_plane: f32,
-    /// Towards the light, in steps of the stored depth ([`Technique::depth_step`]) and, as these have no
-    /// steps, in what floats lose on the way (8 units in the last place of a projected depth from ½ to 1);
+    /// Towards the light, in steps of the stored depth
+    /// ([`Description::depth_quantum`](crate::technique::Description::depth_quantum)) and, as floats have no
+    /// steps, in what these lose on the way (8 units in the last place of a projected depth from ½ to 1);
     /// one half covers rounding.
     pub depth_steps: f32,
 }
@@ -171,7 +172,6 @@ impl BiasTerms {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::technique::all;
 
     #[test]
     fn biases_are_read_back_as_written() {
@@ -198,12 +198,8 @@ mod tests {
     }
 
     #[test]
-    fn comparisons_alone_are_biased_by_rounding() {
-        for technique in all() {
-            let terms = Bias::Auto.terms(technique.as_ref());
-            let compares = technique.page().family == crate::technique::Family::Comparison;
-            assert_eq!(terms.depth_steps > 0.0 && terms.receiver_plane >= 1.0, compares, "{technique:?}");
-            assert_eq!(Bias::NONE.terms(technique.as_ref()), BiasTerms::NONE);
-        }
+    fn fixed_terms_ignore_what_is_needed() {
+        assert_eq!(Bias::Auto.terms(BiasTerms::TEXELS), BiasTerms::TEXELS);
+        assert_eq!(Bias::NONE.terms(BiasTerms::TEXELS), BiasTerms::NONE);
     }
 }

@@ -29,6 +29,19 @@ impl Capabilities {
         Self { features: device.features(), limits: device.limits() }
     }
 
+    /// A device with all [`OPTIONAL_FEATURES`](Self::OPTIONAL_FEATURES) and the limits that WebGPU
+    /// guarantees, for descriptions without a device.
+    #[must_use]
+    pub fn full() -> Self {
+        Self { features: Self::OPTIONAL_FEATURES, ..Self::least() }
+    }
+
+    /// A device with no more than WebGPU guarantees.
+    #[must_use]
+    pub fn least() -> Self {
+        Self { features: Features::empty(), limits: wgpu::Limits::default() }
+    }
+
     /// Whether a sampler may interpolate this format.
     #[must_use]
     pub fn filters(&self, format: TextureFormat) -> bool {
@@ -47,6 +60,23 @@ impl Capabilities {
         self.features.contains(format.required_features())
             && (usages.contains(wgpu::TextureUsages::RENDER_ATTACHMENT)
                 || self.features.contains(Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES))
+    }
+
+    /// `wanted`, of 16 bits a channel, where a map may have it; else `instead`, of 32 bits, and what is to be
+    /// told of `what` it holds.
+    pub(crate) fn norm16(
+        &self,
+        what: &str,
+        wanted: TextureFormat,
+        instead: TextureFormat,
+    ) -> (TextureFormat, Option<String>) {
+        if self.renders(wanted) {
+            return (wanted, None);
+        }
+        let note = format!(
+            "{what} in 32 bits instead of 16, twice the memory: {wanted:?} cannot be rendered to without TEXTURE_FORMAT_16BIT_NORM and TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES"
+        );
+        (instead, Some(note))
     }
 
     /// How many layers of this format one render pass can write.

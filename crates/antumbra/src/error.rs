@@ -53,6 +53,66 @@ pub enum SettingError {
     },
 }
 
+/// What is wrong with a [`Description`](crate::Description).
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum DescriptionError {
+    /// The WGSL needs a file that does not exist.
+    #[error("its WGSL needs '{stem}', which is no file of the library; there are: {}", known.join(", "))]
+    File {
+        /// Stem of the file.
+        stem: String,
+        /// Stems of all files.
+        known: Vec<String>,
+    },
+    /// The WGSL needs a slot that nothing fills.
+    #[error("nothing fills the slot '{slot}' that its WGSL needs; add one of these to Description::slots: {}", files.join(", "))]
+    Slot {
+        /// Name of the slot.
+        slot: String,
+        /// Files that fill it.
+        files: Vec<String>,
+    },
+    /// A constant that does not have one declaration.
+    #[error(
+        "its WGSL declares the constant '{name}' {found} times; write 'const {name}: …;' once, on one line"
+    )]
+    Constant {
+        /// Name of the constant.
+        name: String,
+        /// Declarations that there are.
+        found: usize,
+    },
+    /// A loop that is marked to be written out, and cannot be.
+    #[error(
+        "the loop '{line}' cannot be written out; write 'for (var i = 0u; i < COUNT; i += 1u) {{ // unrolled' with a constant 'const COUNT: u32'"
+    )]
+    Loop {
+        /// Its first line.
+        line: String,
+    },
+    /// No caster pass.
+    #[error("it has no sample offsets; a single caster pass has one, of zero")]
+    SampleOffsets,
+    /// More caster passes than the first map has channels.
+    #[error(
+        "{passes} caster passes fill {passes} channels of the first map, which has {layers} layers of four"
+    )]
+    Layers {
+        /// Caster passes.
+        passes: usize,
+        /// Layers of the first map.
+        layers: u32,
+    },
+    /// A binding of something that is not kept.
+    #[error("it binds {binding}, for which it needs {needed}")]
+    Binding {
+        /// The binding.
+        binding: String,
+        /// What is missing.
+        needed: &'static str,
+    },
+}
+
 /// Why a [`ShadowMap`](crate::ShadowMap) cannot be made on this device.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Unsupported {
@@ -118,6 +178,14 @@ pub enum Unsupported {
         technique: String,
         /// What the device says.
         reason: String,
+    },
+    /// A technique's description that contradicts itself, or whose WGSL cannot be put together.
+    #[error("the description of {technique} is wrong: {error}")]
+    Description {
+        /// Name of the technique.
+        technique: String,
+        /// What is wrong.
+        error: DescriptionError,
     },
     /// A shader for cut-outs that the device does not take.
     #[error("the device refuses the shader that leaves holes in the casters of {technique}: {reason}")]

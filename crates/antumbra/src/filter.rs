@@ -2,10 +2,13 @@
 
 use crate::{
     capabilities::Capabilities,
+    describe::{
+        map::{Access, Combine, Encode, Map, Pass},
+        wgsl::Constant,
+    },
     kernel::{Adaptive, Kernel, Weights, Width},
     parameter::{Field, Parameter, choice},
     table::{MOST_SUMMED, Table},
-    technique::{Combine, Constant, Encode, Map, Pass},
 };
 
 choice! {
@@ -31,15 +34,44 @@ choice! {
 
 /// What a map holds, before filters act on it.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Values {
+    /// Name of the map in memory listings.
+    pub name: &'static str,
     /// Storage of a filtered texel.
     pub format: wgpu::TextureFormat,
     /// Array layers per view.
     pub layers: u32,
-    /// Both ends of each channel's range, the one that needs finer steps first.
+    /// What makes them from depth.
+    pub encode: Encode,
+    /// What filtering them means.
+    pub combine: Combine,
+    /// Both ends of each channel's range, the one that needs finer steps first; for summed-area tables.
     pub ranges: Vec<[f32; 2]>,
     /// Bits of a value that count, for summed-area tables. 8: multiples of 1/255 of the range.
     pub bits: u32,
+    /// The stored value that stands for zero, except in summed-area tables.
+    pub zero_level: f32,
+    /// What is told of the format; a summed-area table does without.
+    pub note: Option<String>,
+}
+
+impl Values {
+    /// One layer of linear values from 0 to 1, of which 24 bits count.
+    #[must_use]
+    pub fn new(name: &'static str, format: wgpu::TextureFormat, encode: Encode) -> Self {
+        Self {
+            name,
+            format,
+            layers: 1,
+            encode,
+            combine: Combine::Mean,
+            ranges: vec![[0.0, 1.0]; format.components().into()],
+            bits: 24,
+            zero_level: 0.0,
+            note: None,
+        }
+    }
 }
 
 /// Blur, mips and sampling, in the order in which they act.
@@ -76,6 +108,15 @@ impl Default for Filter {
 }
 
 impl Filter {
+    /// Settings that take other ways through shaders than the defaults; see
+    /// [`Technique::variants`](crate::Technique::variants).
+    pub const VARIANTS: [&'static str; 4] = [
+        "sampling=trilinear",
+        "sampling=anisotropic",
+        "sampling=summed,kernel=5",
+        "sampling=nearest,kernel=1",
+    ];
+
     /// The rows of these settings in a technique's parameter table.
     pub fn parameters(&mut self) -> Vec<Parameter<'_>> {
         let (widest, longest) =
@@ -111,8 +152,7 @@ impl Filter {
     }
 
     /// The blur and mips that these settings ask for.
-    #[must_use]
-    pub fn passes(&self, combine: Combine) -> Vec<Pass> {
+    pub(crate) fn passes(&self, combine: Combine) -> Vec<Pass> {
         let kernel = || match self.width {
             w if w > 0.0 => Kernel::adaptive(self.weights, self.width(), self.sigma),
             _ => Kernel::new(self.weights, self.kernel, self.sigma),
@@ -123,18 +163,22 @@ impl Filter {
     }
 
     /// A map that holds such values, with all its passes.
-    #[must_use]
-    pub fn map(&self, name: &'static str, encode: Encode, values: Values, combine: Combine) -> Map {
-        let Values { format, layers, .. } = values;
-        match self.table(&values) {
+    pub(crate) fn map(&self, values: &Values, device: &Capabilities) -> Map {
+        let Values { name, format, layers, encode, zero_level, .. } = *values;
+        match self.table(values) {
             Some(table) => Map {
-                name,
-                format: wgpu::TextureFormat::Rgba32Uint,
                 layers: layers * table.parts(),
-                encode,
                 passes: vec![Pass::Sum(table)],
+                access: Access::Sums,
+                ..Map::new(name, wgpu::TextureFormat::Rgba32Uint, encode)
             },
-            None => Map { name, format, layers, encode, passes: self.passes(combine) },
+            None => Map {
+                layers,
+                passes: self.passes(values.combine),
+                access: self.access(values, device),
+                zero_level,
+                ..Map::new(name, format, encode)
+            },
         }
     }
 
@@ -146,30 +190,44 @@ impl Filter {
         })
     }
 
+    /// How receivers read a map of such values on this device.
+    fn access(&self, values: &Values, device: &Capabilities) -> Access {
+        match (self.sampling, values.combine) {
+            (Sampling::Nearest, _) => Access::Texel,
+            (Sampling::Summed, _) => Access::Sums,
+            (_, Combine::LogMean(_)) => Access::Powers,
+            _ if device.filters(values.format) => Access::Sampler,
+            _ => Access::Shader,
+        }
+    }
+
     /// The WGSL files behind `lookup_filtered`, for a map of such values on this device.
-    #[must_use]
-    pub fn parts(&self, device: &Capabilities, values: &Values, combine: Combine) -> Vec<&'static str> {
+    pub(crate) fn slots(&self, values: &Values, device: &Capabilities) -> Vec<&'static str> {
         let lookup = match self.sampling {
-            Sampling::Nearest => return vec!["lookup_nearest"],
+            Sampling::Nearest => "lookup_nearest",
             Sampling::Bilinear => "lookup_bilinear",
             Sampling::Fitted => "lookup_fitted",
             Sampling::Trilinear => "lookup_trilinear",
             Sampling::Anisotropic => "lookup_anisotropic",
             Sampling::Summed => "lookup_summed",
         };
-        let blur = if self.adapted().is_some() { "blur_adaptive" } else { "blur_fixed" };
-        let below = match (self.table(values), combine) {
-            (Some(table), _) => table.arithmetic(),
-            (None, Combine::LogMean(_)) => "level_logarithmic",
-            (None, _) if device.filters(values.format) => "level_hardware",
-            (None, _) => "level_manual",
+        let below = match self.access(values, device) {
+            Access::Texel => None,
+            Access::Sums => self.table(values).map(|table| table.arithmetic()),
+            Access::Powers => Some("level_logarithmic"),
+            Access::Sampler => Some("level_hardware"),
+            Access::Shader => Some("level_manual"),
         };
-        vec![lookup, below, blur]
+        let blur = match (self.sampling, self.adapted()) {
+            (Sampling::Fitted, None) => Some("blur_fixed"),
+            (Sampling::Fitted, Some(_)) => Some("blur_adaptive"),
+            _ => None,
+        };
+        [Some(lookup), below, blur].into_iter().flatten().collect()
     }
 
     /// Compile-time settings of those files.
-    #[must_use]
-    pub fn constants(&self, values: &Values, combine: Combine) -> Vec<Constant> {
+    pub(crate) fn constants(&self, values: &Values) -> Vec<Constant> {
         if let Some(table) = self.table(values) {
             let [low, range] = table.scale();
             return vec![
@@ -181,7 +239,7 @@ impl Filter {
             ];
         }
         let mut constants = Vec::new();
-        if let (Combine::LogMean(c), false) = (combine, self.sampling == Sampling::Nearest) {
+        if let (Combine::LogMean(c), false) = (values.combine, self.sampling == Sampling::Nearest) {
             constants.push(Constant::Number("level_steepness", c));
         }
         if self.sampling == Sampling::Fitted {
@@ -201,42 +259,36 @@ impl Filter {
         Adaptive { width: self.width(), weights: self.weights, sigma_texels: self.sigma }
     }
 
-    /// See [`Technique::blur`](crate::Technique::blur).
-    #[must_use]
-    pub fn adapted(&self) -> Option<Adaptive> {
+    /// The blur, if lookups ask for its variance in each view.
+    pub(crate) fn adapted(&self) -> Option<Adaptive> {
         let asks = self.sampling == Sampling::Fitted && self.width > 0.0 && self.kernel > 1;
         asks.then(|| self.blur())
     }
 
-    /// Texture lookups behind one `lookup_filtered` whose footprint is not stretched.
-    #[must_use]
-    pub fn lookups(&self, values: &Values) -> u32 {
+    /// Texture fetches behind one `lookup_filtered` whose footprint is not stretched.
+    pub(crate) fn fetches(&self, values: &Values) -> u32 {
         self.table(values).map_or(1, |table| 16 * table.parts())
     }
 
-    /// What to tell of a map of values in a 16-bit format that such a device cannot render to, if that
-    /// format is asked for; a table does without.
-    pub(crate) fn told_of_norm16(
-        &self,
-        device: &Capabilities,
-        what: &str,
-        format: Option<wgpu::TextureFormat>,
-    ) -> Option<String> {
-        let missing = format.filter(|f| self.sampling != Sampling::Summed && !device.renders(*f))?;
-        Some(format!(
-            "{what} in 32 bits instead of 16, twice the memory: {missing:?} cannot be rendered to without TEXTURE_FORMAT_16BIT_NORM and TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES"
-        ))
+    /// What is to be told of these settings and such values.
+    pub(crate) fn notes(&self, values: Values) -> Vec<String> {
+        match self.sampling {
+            Sampling::Summed => Vec::new(),
+            Sampling::Anisotropic => {
+                let by_loop = "anisotropic lookups by a loop in the shader, the same on every driver, not by the sampler";
+                values.note.into_iter().chain([by_loop.into()]).collect()
+            }
+            _ => values.note.into_iter().collect(),
+        }
     }
 
     /// Width of the blur in each view.
-    #[must_use]
-    pub fn width(&self) -> Width {
+    pub(crate) fn width(&self) -> Width {
         Width { texels: self.kernel as f32, world: self.width }
     }
 
-    /// See [`Technique::reach_texels`](crate::Technique::reach_texels).
-    #[must_use]
-    pub fn reach_texels(&self) -> f32 {
+    /// Half the width of the blur and of a bilinear lookup, in texels.
+    pub(crate) fn filter_radius_texels(&self) -> f32 {
         self.kernel as f32 / 2.0 + 0.5
     }
 }

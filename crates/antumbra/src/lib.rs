@@ -161,6 +161,7 @@ mod bias;
 mod bound;
 mod camera;
 mod capabilities;
+mod describe;
 mod error;
 mod filter;
 mod kernel;
@@ -178,7 +179,7 @@ pub use wgpu;
 
 pub use camera::visible_hull;
 pub use capabilities::Capabilities;
-pub use error::{CasterError, LightError, MeshError, SettingError, Unsupported};
+pub use error::{CasterError, DescriptionError, LightError, MeshError, SettingError, Unsupported};
 pub use filter::{Filter, Sampling, Values};
 pub use kernel::{Kernel, Weights};
 pub use light::{Bounds, CameraFit, Cascades, Fit, Light, Size, View};
@@ -191,7 +192,7 @@ pub use precision::Precision;
 pub use shader::{CASTER_WGSL, Shader, ShaderText};
 pub use table::Table;
 pub use technique::{
-    Technique, bicubic::Bicubic, csm::Csm, dpm::Dpm, esm::Esm, evsm::Evsm, exact::Exact,
+    Description, Technique, bicubic::Bicubic, csm::Csm, dpm::Dpm, esm::Esm, evsm::Evsm, exact::Exact,
     footprint::Footprint, hard::Hard, lvsm::Lvsm, msm::Msm, packed::Packed, pcf::Pcf, poisson::Poisson,
     rgsm::Rgsm, spsm::Spsm, stratified::Stratified, vsm::Vsm,
 };

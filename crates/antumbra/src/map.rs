@@ -2,9 +2,9 @@
 
 use crate::{
     capabilities::Capabilities,
+    describe::{Description, Technique},
     light::{Size, View},
-    shader::{self, ShaderText},
-    technique::Technique,
+    shader::{Composition, MapSize, ShaderText},
 };
 use glam::Vec2;
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -59,12 +59,11 @@ pub const DEPTH_FORMAT: TextureFormat = TextureFormat::Depth32Float;
 #[derive(Debug)]
 pub struct ShadowMap {
     technique: Box<dyn Technique>,
+    composition: Composition,
     capabilities: Capabilities,
     size: Size,
     room: u32,
     capacity: Capacity,
-    /// Whether lookups ask about cut-outs.
-    asks: bool,
     textures: Textures,
     uniforms: Uniforms,
     draws: Vec<Vec<Draw>>,
@@ -79,7 +78,6 @@ pub struct ShadowMap {
     layout: wgpu::BindGroupLayout,
     bind_group: wgpu::BindGroup,
     views: Vec<View>,
-    jitter: Vec<Vec2>,
     /// One per view and caster pass.
     caster_views: Vec<View>,
 }
@@ -101,8 +99,9 @@ impl ShadowMap {
         self.views.extend_from_slice(views);
         self.caster_views.clear();
         let jittered = |view: &View, offset: Vec2| view.jittered(self.size, offset);
+        let offsets = &self.composition.description.sample_offsets;
         self.caster_views
-            .extend(views.iter().flat_map(|view| self.jitter.iter().map(move |o| jittered(view, *o))));
+            .extend(views.iter().flat_map(|view| offsets.iter().map(move |o| jittered(view, *o))));
         self.uniforms.write(queue, views);
         if let Some(triangles) = &self.triangles {
             triangles.write(queue, views);
@@ -132,7 +131,7 @@ impl ShadowMap {
 
     /// The views that [`encode`](Self::encode) asks the casters for, in order: those of
     /// [`prepare`](Self::prepare), or several for each of them, shifted by fractions of a texel
-    /// ([`Technique::jitter`]).
+    /// ([`Description::sample_offsets`]).
     #[must_use]
     pub fn caster_views(&self) -> &[View] {
         &self.caster_views
@@ -147,7 +146,7 @@ impl ShadowMap {
     /// Whether its lookups ask about cut-outs: [`Options::cutouts`], where the technique keeps triangles by id.
     #[must_use]
     pub fn asks_about_cutouts(&self) -> bool {
-        self.asks
+        self.composition.asks
     }
 
     /// Layout of [`bind_group`](Self::bind_group), visible to fragment and compute shaders.
@@ -175,13 +174,12 @@ impl ShadowMap {
     /// `caster_tag` said of it.
     #[must_use]
     pub fn wgsl(&self, group: u32) -> ShaderText {
-        let size = shader::MapSize {
+        let size = MapSize {
             views: self.room,
             capacity: self.capacity,
             splits: self.ranked.as_ref().map(RankedTriangles::splits).unwrap_or_default(),
-            asks: self.asks,
         };
-        shader::receiver(self.technique.as_ref(), &self.capabilities, size, group)
+        self.composition.receiver(size, group)
     }
 
     /// Memory for triangles that it was made with.
@@ -190,10 +188,16 @@ impl ShadowMap {
         self.capacity
     }
 
-    /// What `shadow_visibility` is made from.
+    /// The technique that it was made for.
     #[must_use]
     pub fn technique(&self) -> &dyn Technique {
         self.technique.as_ref()
+    }
+
+    /// What the technique said of itself on this device, once: what everything here is made from.
+    #[must_use]
+    pub fn description(&self) -> &Description {
+        &self.composition.description
     }
 
     /// Texels of each view.
@@ -205,10 +209,10 @@ impl ShadowMap {
     /// Free texels that a view should leave on each side ([`Fit::margin_texels`](crate::Fit)).
     #[must_use]
     pub fn margin_texels(&self) -> f32 {
-        self.technique.reach_texels().ceil() + 1.0
+        self.description().margin_texels()
     }
 
-    /// Entry `index` of [`Technique::maps`] as allocated, for debug views: view `v` starts at layer
+    /// Entry `index` of [`Description::maps`] as allocated, for debug views: view `v` starts at layer
     /// `v · layers`. Usages `TEXTURE_BINDING` and `COPY_SRC`. `None` if the technique keeps fewer.
     #[must_use]
     pub fn map_texture(&self, index: usize) -> Option<&wgpu::Texture> {
@@ -240,6 +244,6 @@ impl ShadowMap {
     pub fn explain(&self) -> Vec<String> {
         let triangles = self.lists.as_ref().map(Lists::explain);
         let triangles = triangles.or_else(|| self.ranked.as_ref().map(RankedTriangles::explain));
-        explain::lines(self.technique.as_ref(), &self.capabilities, &self.textures, triangles)
+        explain::lines(self.description(), &self.capabilities, triangles)
     }
 }

@@ -76,12 +76,9 @@ impl std::fmt::Debug for Parameter<'_> {
 }
 
 impl<'a> Parameter<'a> {
-    pub(crate) fn new(
-        name: &'static str,
-        unit: &'static str,
-        field: Field<'a>,
-        meaning: &'static str,
-    ) -> Self {
+    /// The setting behind such a field.
+    #[must_use]
+    pub fn new(name: &'static str, unit: &'static str, field: Field<'a>, meaning: &'static str) -> Self {
         Self { name, unit, meaning, field }
     }
 

@@ -5,8 +5,9 @@
 
 use crate::{
     capabilities::Capabilities,
+    describe::{Caster, Combine, Map, Pass},
     light::Size,
-    technique::{Caster, Combine, Map, Pass, Technique},
+    shader::Composition,
 };
 use convert::Source;
 
@@ -29,7 +30,7 @@ pub(crate) enum Slot {
         /// How many caster passes the view has.
         of: u32,
     },
-    /// Entry of `Technique::maps`; layers count from the view's first.
+    /// Entry of `Description::maps`; layers count from the view's first.
     Map(usize),
     /// A few layers of the size and format of that map, between the two halves of a separable filter.
     Scratch(usize),
@@ -149,14 +150,15 @@ pub(crate) fn scratch_layers(map: &Map, device: &Capabilities) -> u32 {
 }
 
 /// All steps between casting and lighting of one view.
-pub(crate) fn plan(technique: &dyn Technique, device: &Capabilities, maps: &[Map], size: Size) -> Vec<Step> {
+pub(crate) fn plan(composition: &Composition, device: &Capabilities, size: Size) -> Vec<Step> {
     let mut steps = Vec::new();
-    if technique.caster() != Caster::Depth {
+    let description = &composition.description;
+    if description.caster != Caster::Depth {
         return steps;
     }
-    let casts = technique.jitter().len() as u32;
-    for (index, map) in maps.iter().enumerate() {
-        let source = Source::new(technique, device, map);
+    let casts = description.sample_offsets.len() as u32;
+    for (index, map) in description.maps.iter().enumerate() {
+        let source = Source::new(composition, map);
         if casts > 1 {
             let layer = |first| Run { map: index, first: first / 4, count: 1 };
             steps.extend((0..casts).step_by(4).map(|first| source.channels(first, casts, layer(first))));

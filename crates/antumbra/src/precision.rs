@@ -2,8 +2,8 @@
 
 use crate::{
     capabilities::Capabilities,
+    describe::wgsl::Constant,
     parameter::{Field, Parameter, choice},
-    technique::Constant,
 };
 use wgpu::TextureFormat;
 
@@ -44,8 +44,12 @@ impl Precision {
         self.steps().map_or(0.0, |n| 1.0 / n as f32)
     }
 
+    /// Settings that take other ways through shaders than the default; see
+    /// [`Technique::variants`](crate::Technique::variants).
+    pub const VARIANTS: [&'static str; 1] = ["precision=16"];
+
     /// The WGSL file behind `reference_depth`.
-    pub(crate) fn part(self) -> &'static str {
+    pub(crate) fn slot(self) -> &'static str {
         if self.steps().is_none() { "reference_exact" } else { "reference_stepped" }
     }
 
@@ -54,24 +58,14 @@ impl Precision {
         self.steps().map(|n| Constant::Count("reference_steps", n)).into_iter().collect()
     }
 
-    /// Format of four depths in one texel.
-    pub(crate) fn rgba(self, device: &Capabilities) -> TextureFormat {
+    /// Format of four depths in one texel, and what is to be told of it.
+    pub(crate) fn rgba(self, device: &Capabilities) -> (TextureFormat, Option<String>) {
         match self {
-            Self::Bits8 => TextureFormat::Rgba8Unorm,
-            Self::Bits12 | Self::Bits16 if device.renders(TextureFormat::Rgba16Unorm) => {
-                TextureFormat::Rgba16Unorm
+            Self::Bits8 => (TextureFormat::Rgba8Unorm, None),
+            Self::Bits12 | Self::Bits16 => {
+                device.norm16("depths", TextureFormat::Rgba16Unorm, TextureFormat::Rgba32Float)
             }
-            Self::Bits12 | Self::Bits16 | Self::Bits24 | Self::Float32 => TextureFormat::Rgba32Float,
-        }
-    }
-
-    /// What is told where [`rgba`](Self::rgba) takes more bits than needed.
-    pub(crate) fn fallbacks(self, device: &Capabilities) -> Vec<String> {
-        match (self, self.rgba(device)) {
-            (Self::Bits12 | Self::Bits16, TextureFormat::Rgba32Float) => vec![
-                "depths in 32 bits instead of 16, twice the memory: Rgba16Unorm cannot be rendered to without TEXTURE_FORMAT_16BIT_NORM and TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES".into(),
-            ],
-            _ => Vec::new(),
+            Self::Bits24 | Self::Float32 => (TextureFormat::Rgba32Float, None),
         }
     }
 

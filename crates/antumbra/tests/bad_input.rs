@@ -100,9 +100,9 @@ fn settings_in_public_fields(gpu: &Gpu) {
     }
     // Every number of every technique, just outside its range.
     for technique in technique::all() {
-        let count = technique.boxed().parameters().len();
+        let count = technique.clone_box().parameters().len();
         for i in 0..count {
-            let mut broken = technique.boxed();
+            let mut broken = technique.clone_box();
             let name = {
                 let mut parameters = broken.parameters();
                 let parameter = &mut parameters[i];
@@ -113,7 +113,7 @@ fn settings_in_public_fields(gpu: &Gpu) {
                 }
                 parameter.name
             };
-            let full = format!("{}.{name}", technique.page().name);
+            let full = format!("{}.{name}", technique.about().name);
             says(&refusal(gpu, broken.as_ref(), SIZE), &[&full, "allowed: "]);
         }
     }
@@ -275,10 +275,10 @@ fn least_devices(_: &Gpu) {
             gpu.queue.submit([encoder.finish()]);
             let explained = shadows.explain().join("\n");
             says(&explained, &["no depth clamping", "caster_pancaked"]);
-            if technique.page().name == "msm" {
+            if technique.about().name == "msm" {
                 says(&explained, &["32 bits instead of 16", "TEXTURE_FORMAT_16BIT_NORM", "in Rgba32Float"]);
             }
-            if technique.page().name == "csm" {
+            if technique.about().name == "csm" {
                 says(&explained, &["8 layers of basis in passes of 4"]);
             }
         }

@@ -80,7 +80,7 @@ fn readme() {
 
 /// Every technique, in both halves, near and far: two cascades at least.
 fn own_shader(gpu: &Gpu) {
-    let names: Vec<&str> = antumbra::technique::all().iter().map(|t| t.page().name).collect();
+    let names: Vec<&str> = antumbra::technique::all().iter().map(|t| t.about().name).collect();
     let last = [names[0], names[names.len() - 1]];
     let sun = Vec3::new(0.64, 0.64, 0.43);
     let shadow = |x, z| on_ground(Vec3::new(x, 2.0, z), sun);

@@ -9,7 +9,7 @@
 mod common;
 
 use antumbra::{
-    Capacity, Options, ShadowMap, Size, Technique, technique,
+    Capabilities, Capacity, Options, ShadowMap, Size, Technique, technique,
     technique::{Bias, Caster},
 };
 use antumbra_testing::{
@@ -113,7 +113,7 @@ fn behind(gpu: &Gpu, spec: &str, options: Options, casters: &[Vec3], receivers: 
 
 fn picture(gpu: &Gpu, spec: &str, bias: Bias) -> Vec<f32> {
     let technique = technique::parse(spec).unwrap();
-    if technique.caster() != Caster::Depth {
+    if technique.describe(&Capabilities::full()).unwrap().caster != Caster::Depth {
         return behind(gpu, spec, SIZE.into(), &triangles(), &receivers());
     }
     picture_of(gpu, technique.as_ref(), bias)
@@ -121,10 +121,10 @@ fn picture(gpu: &Gpu, spec: &str, bias: Bias) -> Vec<f32> {
 
 /// The picture of a technique that keeps depth.
 fn picture_of(gpu: &Gpu, technique: &dyn Technique, bias: Bias) -> Vec<f32> {
-    let jitter = technique.jitter();
+    let offsets = technique.describe(&Capabilities::full()).unwrap().sample_offsets;
     let texel = |i: u32, offset: f32| (i as f32 + 0.5 + offset) / 64.0;
-    let depth = depth_layers(gpu, SIZE, jitter.len() as u32, |pass, x, y| {
-        let offset = jitter[pass as usize];
+    let depth = depth_layers(gpu, SIZE, offsets.len() as u32, |pass, x, y| {
+        let offset = offsets[pass as usize];
         nearest(texel(x, offset.x), texel(y, offset.y))
     });
     let options = Options { bias, ..SIZE.into() };
@@ -276,10 +276,10 @@ fn stratified_resolves_as_a_finer_map(gpu: &Gpu) {
     const TEXELS: u32 = 48;
     let seen = |spec: &str, size: u32, receivers: &[Receiver]| {
         let technique = technique::parse(spec).unwrap();
-        let jitter = technique.jitter();
+        let offsets = technique.describe(&Capabilities::full()).unwrap().sample_offsets;
         let texel = |i: u32, offset: f32| (i as f32 + 0.5 + offset) / size as f32;
-        let depth = depth_layers(gpu, Size::square(size), jitter.len() as u32, |pass, x, y| {
-            let offset = jitter[pass as usize];
+        let depth = depth_layers(gpu, Size::square(size), offsets.len() as u32, |pass, x, y| {
+            let offset = offsets[pass as usize];
             nearest(texel(x, offset.x), texel(y, offset.y))
         });
         // Without a bias, whose texels are those of the map.
@@ -488,10 +488,11 @@ fn main() {
     let path =
         |name: &str| PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("tests/golden/{name}.png"));
     let mut trials = Trials::default();
-    for name in technique::all().iter().map(|t| t.page().name) {
+    for name in technique::all().iter().map(|t| t.about().name) {
         trials.add(format!("{name}: picture"), move |gpu| {
             let image = Image::grey(SIDE, &picture(gpu, name, Bias::Auto));
-            let triangles = technique::parse(name).unwrap().caster() != Caster::Depth;
+            let triangles = technique::parse(name).unwrap().describe(&Capabilities::full()).unwrap().caster
+                != Caster::Depth;
             let tolerance = if triangles && !gpu.is_software() { ON_EDGES } else { TOLERANCE };
             image.compare_with_reference(&path(name), tolerance).unwrap();
         });
@@ -510,7 +511,7 @@ fn main() {
     let aside = "compare, uv + vec2f(0.5) / vec2f(textureDimensions(casters)), view";
     for (what, broken) in [
         ("half a texel aside", Broken::saying("pcf", "compare, uv, view", aside)),
-        ("weights that do not sum to one", Broken { weights: 0.97, ..Broken::new("pcf") }),
+        ("weights that do not sum to one", Broken::new("pcf").weights(0.97)),
         ("a tap dropped", Broken::saying("stratified", "k < COUNT", "k + 1u < COUNT")),
         ("a tap dropped", Broken::saying("poisson", "var i = 0u; i <", "var i = 1u; i <")),
         (
@@ -518,7 +519,7 @@ fn main() {
             Broken::saying("packed", "vec2f(0.5, -0.5)", "vec2f(0.0, 0.0)"),
         ),
     ] {
-        let name = broken.page().name;
+        let name = broken.about().name;
         let path = path(name);
         trials.add(format!("rejected: {what} ({name})"), move |gpu| {
             let image = Image::grey(SIDE, &picture_of(gpu, &broken, Bias::Auto));

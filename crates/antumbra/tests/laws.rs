@@ -9,9 +9,9 @@ mod common;
 
 use antumbra::{
     Capabilities, Capacity, Options, Size, Technique, View, technique,
-    technique::{Caster, Combine, Pass},
+    technique::{Access, Caster, Combine, Description, Pass},
 };
-use antumbra_testing::{Gpu, Trials, broken::Broken};
+use antumbra_testing::{Gpu, Trials, broken::Broken, settings};
 use common::{Random, Receiver, depth_layers, depth_texture, shadow_map, shadow_map_of, texels, visibility};
 use glam::{Mat4, Vec2, Vec3};
 
@@ -19,51 +19,14 @@ const SIZE: Size = Size::square(64);
 
 type Law = fn(&Gpu, &dyn Technique) -> Result<(), String>;
 
-/// Defaults of each member, and settings that take other paths.
-fn specs() -> Vec<String> {
-    let mut specs = Vec::new();
-    for mut technique in technique::all() {
-        let name = technique.page().name;
-        let has: Vec<&str> = technique.parameters().iter().map(|p| p.name).collect();
-        specs.push(name.to_string());
-        let mut more = |needs, settings| {
-            if has.contains(&needs) {
-                specs.push(format!("{name}.{settings}"));
-            }
-        };
-        more("terms", "terms=4");
-        more("terms", "terms=1,lift=both");
-        more("taps", "taps=nearest,kernel=5");
-        more("taps", "taps=bilinear");
-        more("taps", "taps=merged,kernel=4");
-        more("grid", "grid=4");
-        more("accumulation", "grid=4,accumulation=bytes,precision=8");
-        more("spin", "spin=fixed,points=5");
-        more("precision", "precision=16");
-        more("sampling", "sampling=trilinear");
-        more("sampling", "sampling=anisotropic");
-        more("sampling", "sampling=summed,kernel=5");
-        more("classifier", "classifier=none");
-        more("classifier", "classifier=zmax,custom=none");
-        more("classifier", "storage=log32,classifier=zmax");
-        more("slope_of", "slope_of=caster");
-        more("sampling", "sampling=nearest,kernel=1");
-        more("layers", "packing=map,layers=1");
-        more("layers", "packing=texel,samples=2");
-        more("keeps", "keeps=1,samples=2");
-        more("keeps", "keeps=9");
-        more("neighbours", "packing=map,neighbours=5");
-        more("neighbours", "packing=texel,neighbours=1");
-        more("moments", "moments=two");
-        more("intervals", "intervals=7,overlap=0");
-        for p in &technique.parameters() {
-            if let ("format" | "storage" | "choose", antumbra::Field::Choice(choice)) = (p.name, &p.field) {
-                let others = choice.names().iter().filter(|n| **n != p.value());
-                specs.extend(others.map(|n| format!("{name}.{}={n}", p.name)));
-            }
-        }
-    }
-    specs
+/// What a technique says of itself on a device.
+fn described(gpu: &Gpu, technique: &dyn Technique) -> Description {
+    technique.describe(&Capabilities::of(&gpu.device)).unwrap()
+}
+
+/// A run-time setting, if there is one of that name.
+fn setting(described: &Description, name: &str) -> Option<f32> {
+    described.settings.iter().find(|(n, _)| *n == name).map(|(_, value)| *value)
 }
 
 /// Sets a parameter where there is one.
@@ -118,7 +81,7 @@ fn stays_within_zero_and_one(gpu: &Gpu, technique: &dyn Technique) -> Result<(),
 fn is_lit_without_casters(gpu: &Gpu, technique: &dyn Technique) -> Result<(), String> {
     let shadows = shadow_map(gpu, technique, &depth_texture(gpu, SIZE, |_, _| 1.0), SIZE.into());
     let receivers: Vec<_> = (0..=256).map(|i| Receiver::point(0.3, 0.6, i as f32 / 256.0)).collect();
-    let least = 0.999 - technique.ripple();
+    let least = 0.999 - described(gpu, technique).ringing;
     all_of(receivers.iter().zip(visibility(gpu, &shadows, &receivers)), |_, v| v >= least)
 }
 
@@ -131,14 +94,15 @@ fn is_dark_within(gpu: &Gpu, technique: &dyn Technique, capacity: Capacity) -> R
     let shadows = shadow_map(gpu, technique, &depth_texture(gpu, SIZE, |_, _| 0.2), options);
     let receivers: Vec<_> =
         (0..=256).map(|i| Receiver::point(0.7, 0.4, 0.7 + 0.3 * i as f32 / 256.0)).collect();
-    let most = technique.ripple() + 1e-4;
+    let most = described(gpu, technique).ringing + 1e-4;
     all_of(receivers.iter().zip(visibility(gpu, &shadows, &receivers)), |_, v| v <= most)
 }
 
 /// Whether it chooses between several ways to answer, by depth: its answers jump where it changes over.
-fn changes_over(technique: &dyn Technique) -> bool {
-    technique.boxed().parameters().iter().any(|p| {
-        let custom = p.name == "custom" && p.value() != "none" && !technique.classes().is_empty();
+fn changes_over(gpu: &Gpu, technique: &dyn Technique) -> bool {
+    let classifies = !described(gpu, technique).classes.is_empty();
+    technique.clone_box().parameters().iter().any(|p| {
+        let custom = p.name == "custom" && p.value() != "none" && classifies;
         custom || (p.name == "choose" && p.value() != "least")
     })
 }
@@ -146,12 +110,13 @@ fn changes_over(technique: &dyn Technique) -> bool {
 /// Ripples may rise by their whole height once, up to rounding.
 fn darkens_with_depth(gpu: &Gpu, technique: &dyn Technique) -> Result<(), String> {
     const STEPS: usize = 64;
-    if changes_over(technique) {
+    if changes_over(gpu, technique) {
         return Ok(());
     }
     let shadows = shadow_map(gpu, technique, &depth_texture(gpu, SIZE, blocks(3, 3)), SIZE.into());
     // Silhouettes of triangles that are not kept are guesses, which differ with what is in front.
-    let centred = |r: Receiver| match technique.caster() {
+    let described = described(gpu, technique);
+    let centred = |r: Receiver| match described.caster {
         Caster::Depth => r,
         Caster::Lists | Caster::Ranked { .. } => r,
         Caster::Triangles(_) => Receiver { uv: ((r.uv * 64.0).floor() + 0.5) / 64.0, ..r },
@@ -159,7 +124,7 @@ fn darkens_with_depth(gpu: &Gpu, technique: &dyn Technique) -> Result<(), String
     let deeper = |r: Receiver| (0..STEPS).map(move |i| Receiver { depth: i as f32 / STEPS as f32, ..r });
     let receivers: Vec<_> = receivers(4, 100).into_iter().map(centred).flat_map(deeper).collect();
     let results = visibility(gpu, &shadows, &receivers);
-    let most = 2.0 * technique.ripple() + 1e-4;
+    let most = 2.0 * described.ringing + 1e-4;
     for (r, v) in receivers.chunks(STEPS).zip(results.chunks(STEPS)) {
         let mut lowest = f32::INFINITY;
         for (r, v) in r.iter().zip(v) {
@@ -176,12 +141,16 @@ fn darkens_with_depth(gpu: &Gpu, technique: &dyn Technique) -> Result<(), String
 /// cannot be narrowed sees one depth where it lies within one block.
 fn shrinks_to_the_hard_shadow(gpu: &Gpu, technique: &dyn Technique) -> Result<(), String> {
     const BLOCK: u32 = 8;
-    let mut narrow = technique.boxed();
+    let mut narrow = technique.clone_box();
     let least = narrow.parameters().iter().find(|p| p.name == "kernel").map(|p| match &p.field {
         antumbra::Field::Number(_, r) => r.start().to_string(),
         _ => "1".to_string(),
     });
-    let margin = if least.is_some() { 0 } else { (technique.reach_texels() - 0.5).ceil() as u32 };
+    let margin = if least.is_some() {
+        0
+    } else {
+        (described(gpu, technique).filter_radius_texels - 0.5).ceil() as u32
+    };
     try_set(narrow.as_mut(), "kernel", &least.unwrap_or_default());
     for (name, value) in [("sampling", "nearest"), ("taps", "nearest")] {
         try_set(narrow.as_mut(), name, value);
@@ -190,8 +159,9 @@ fn shrinks_to_the_hard_shadow(gpu: &Gpu, technique: &dyn Technique) -> Result<()
     let inner = |x: u32| (margin..BLOCK - margin).contains(&(x % BLOCK));
     let shadows = shadow_map(gpu, narrow.as_ref(), &depth_texture(gpu, SIZE, &map), SIZE.into());
     // A series lifted by its own half ramp is at one end of the ramp where d = z.
-    let uniform = |name| narrow.uniforms().iter().find(|(n, _)| *n == name).map_or(0.0, |(_, value)| *value);
-    let ramp = (2.0 * uniform("offset") / uniform("span").max(0.5)).max(0.1);
+    let of_narrow = described(gpu, narrow.as_ref());
+    let set = |name| setting(&of_narrow, name).unwrap_or(0.0);
+    let ramp = (2.0 * set("offset") / set("span").max(0.5)).max(0.1);
     let mut random = Random::new(6);
     let mut receivers = Vec::new();
     let mut expected = Vec::new();
@@ -206,7 +176,7 @@ fn shrinks_to_the_hard_shadow(gpu: &Gpu, technique: &dyn Technique) -> Result<()
     if receivers.is_empty() {
         return Ok(());
     }
-    let tolerance = technique.ripple() + 1e-3;
+    let tolerance = described(gpu, technique).ringing + 1e-3;
     let results = visibility(gpu, &shadows, &receivers);
     for ((r, v), e) in receivers.iter().zip(results).zip(expected) {
         if (v - e).abs() > tolerance {
@@ -235,11 +205,10 @@ fn filtering_keeps_the_mean(gpu: &Gpu, technique: &dyn Technique) -> Result<(), 
     let border = |x: u32| !(16..48).contains(&x);
     let depth = depth_texture(gpu, SIZE, |x, y| if border(x) || border(y) { 0.5 } else { inner(x, y) });
     let filtered = shadow_map(gpu, technique, &depth, SIZE.into());
-    let mut plain = technique.boxed();
+    let mut plain = technique.clone_box();
     try_set(plain.as_mut(), "kernel", "1");
     let plain = shadow_map(gpu, plain.as_ref(), &depth, SIZE.into());
-    let maps = technique.maps(&Capabilities::of(&gpu.device)).unwrap();
-    for (index, map) in maps.iter().enumerate() {
+    for (index, map) in described(gpu, technique).maps.iter().enumerate() {
         let (Some(filtered), Some(plain)) = (filtered.map_texture(index), plain.map_texture(index)) else {
             return Err("a map is missing".into());
         };
@@ -315,7 +284,8 @@ fn fallbacks_agree(gpu: &Gpu, technique: &dyn Technique) -> Result<(), String> {
     let (found, explained) = lesser.checked(ask);
     // Moments are rounded by 6e-8, which a variance near its floor of 1e-6 magnifies, and a moment
     // bias of 3e-6 too; GPUs interpolate with 8-bit weights besides.
-    let has = |uniform| technique.uniforms().iter().any(|(name, _)| *name == uniform);
+    let whole = described(gpu, technique);
+    let has = |name| setting(&whole, name).is_some();
     let tolerance = match gpu.is_software() {
         true if has("moment_bias") => 5e-3,
         true if has("least_variance") => 1e-3,
@@ -329,12 +299,10 @@ fn fallbacks_agree(gpu: &Gpu, technique: &dyn Technique) -> Result<(), String> {
     if differ > allowed {
         return Err(format!("{differ} of {} receivers differ by more than {tolerance}", receivers.len()));
     }
-    let capabilities = Capabilities::of(&lesser.device);
-    let interpolates = technique.parts(&capabilities).contains(&"level_manual");
-    if let Some(map) = technique.maps(&capabilities).unwrap().first() {
+    if let Some(map) = described(&lesser, technique).maps.first() {
         let said =
             explained.contains(&format!("{} in {:?}, interpolated by the shader", map.name, map.format));
-        if said != interpolates {
+        if said != (map.access == Access::Shader) {
             return Err(format!("explain() says: {explained}"));
         }
     }
@@ -343,7 +311,8 @@ fn fallbacks_agree(gpu: &Gpu, technique: &dyn Technique) -> Result<(), String> {
 
 /// A width in the world that is so many texels of the view is as good as so many texels.
 fn widths_in_the_world_are_texels_of_the_view(gpu: &Gpu, technique: &dyn Technique) -> Result<(), String> {
-    let adapts = technique.boxed().parameters().iter().any(|p| p.name == "width" && p.allowed() != "0 to 0");
+    let adapts =
+        technique.clone_box().parameters().iter().any(|p| p.name == "width" && p.allowed() != "0 to 0");
     if !adapts {
         return Ok(());
     }
@@ -355,14 +324,15 @@ fn widths_in_the_world_are_texels_of_the_view(gpu: &Gpu, technique: &dyn Techniq
     };
     let receivers: Vec<Receiver> = receivers(13, 2048).into_iter().map(inner).collect();
     let ask = |kernel: &str, texels: f32| {
-        let mut technique = technique.boxed();
+        let mut technique = technique.clone_box();
         try_set(technique.as_mut(), "kernel", kernel);
         try_set(technique.as_mut(), "width", &(texels * common::view(SIZE).texel_world).to_string());
         visibility(gpu, &shadow_map(gpu, technique.as_ref(), &depth, SIZE.into()), &receivers)
     };
     let (fixed, adapted) = (ask("5", 0.0), ask("9", 5.0));
     // Sums in another order; moments magnify their last bits.
-    let has = |uniform| technique.uniforms().iter().any(|(name, _)| *name == uniform);
+    let described = described(gpu, technique);
+    let has = |name| setting(&described, name).is_some();
     let tolerance = if has("least_variance") || has("moment_bias") { 5e-3 } else { 1e-4 };
     all_of(receivers.iter().zip(fixed.iter().zip(adapted).map(|(f, a)| f - a)), |_, difference| {
         difference.abs() <= tolerance
@@ -387,26 +357,22 @@ fn broken() -> Vec<(&'static str, Law, Broken)> {
         (
             "weights that sum to one but for rounding",
             stays_within_zero_and_one,
-            Broken { weights: 1.000_001, ..Broken::saying("pcf", "plane), 1.0)", "plane), 2.0)") },
+            Broken::saying("pcf", "plane), 1.0)", "plane), 2.0)").weights(1.000_001),
         ),
         (
             "empty texels that store zero",
             is_lit_without_casters,
             Broken::saying(
                 "esm",
-                "exp(c * depth), 0.0, 0.0",
-                "select(exp(c * depth), 0.0, depth == 1.0), 0.0, 0.0",
+                "exp(esm_c() * depth), 0.0, 0.0",
+                "select(exp(esm_c() * depth), 0.0, depth == 1.0), 0.0, 0.0",
             ),
         ),
-        (
-            "a series without offset",
-            is_lit_without_casters,
-            Broken { uniform: Some(("offset", 0.0)), ..Broken::new("csm") },
-        ),
+        ("a series without offset", is_lit_without_casters, Broken::new("csm").setting("offset", 0.0)),
         (
             "the sign of d − z reversed",
             is_dark_behind_a_blocker,
-            Broken::saying("esm", "exp(-c * depth) * filtered", "exp(c * depth) * filtered"),
+            Broken::saying("esm", "exp(-esm_c() * depth) * filtered", "exp(esm_c() * depth) * filtered"),
         ),
         (
             "the sign of Eq. 11",
@@ -450,7 +416,7 @@ fn broken() -> Vec<(&'static str, Law, Broken)> {
         (
             "far too much variance",
             shrinks_to_the_hard_shadow,
-            Broken { uniform: Some(("least_variance", 0.01)), ..Broken::new("vsm") },
+            Broken::new("vsm").setting("least_variance", 0.01),
         ),
         (
             "a light that leaks at the receiver's own scale",
@@ -460,13 +426,9 @@ fn broken() -> Vec<(&'static str, Law, Broken)> {
         (
             "a warp whose order is reversed",
             is_lit_without_casters,
-            Broken::saying("evsm", "-exp(-negative * z)", "exp(-negative * z)"),
+            Broken::saying("evsm", "-exp(-evsm_negative() * z)", "exp(-evsm_negative() * z)"),
         ),
-        (
-            "moments without bias",
-            is_lit_without_casters,
-            Broken { uniform: Some(("moment_bias", 0.0)), ..Broken::new("msm") },
-        ),
+        ("moments without bias", is_lit_without_casters, Broken::new("msm").setting("moment_bias", 0.0)),
         (
             "a root on the wrong side",
             is_dark_behind_a_blocker,
@@ -502,7 +464,7 @@ fn broken() -> Vec<(&'static str, Law, Broken)> {
         (
             "other weights where the width is fixed",
             widths_in_the_world_are_texels_of_the_view,
-            Broken { weights: 0.97, ..Broken::new("vsm") },
+            Broken::new("vsm").weights(0.97),
         ),
         (
             "light between stored triangles",
@@ -520,7 +482,7 @@ fn broken() -> Vec<(&'static str, Law, Broken)> {
             Broken::saying("dpm", "shadow_corner(view, n", "shadow_corner(0u, n"),
         ),
         ("corners of the first view", views_do_not_matter, Broken::saying("exact", "3u * view + k", "k")),
-        ("a blur that brightens", filtering_keeps_the_mean, Broken { weights: 1.01, ..Broken::new("vsm") }),
+        ("a blur that brightens", filtering_keeps_the_mean, Broken::new("vsm").weights(1.01)),
         (
             "the first view's layer always",
             views_do_not_matter,
@@ -531,18 +493,22 @@ fn broken() -> Vec<(&'static str, Law, Broken)> {
             views_do_not_matter,
             Broken::saying("pcf", "uv, view, depth", "uv, 0u, depth"),
         ),
-        (
-            "no interpolation on lesser devices",
-            fallbacks_agree,
-            Broken { careless: true, ..Broken::new("vsm") },
-        ),
+        ("no interpolation on lesser devices", fallbacks_agree, Broken::new("vsm").with(careless)),
     ]
+}
+
+/// One texel where the shader should interpolate by itself.
+fn careless(described: &mut Description) {
+    if described.slots.contains(&"level_manual") {
+        described.slots = vec!["lookup_nearest"];
+        described.constants.retain(|constant| constant.name() != "blur_everywhere");
+    }
 }
 
 fn main() {
     let mut trials = Trials::default();
     for (law, check) in LAWS {
-        for spec in specs() {
+        for spec in settings::variants() {
             trials.add(format!("{spec}: {law}"), move |gpu| {
                 check(gpu, technique::parse(&spec).unwrap().as_ref()).unwrap();
             });
@@ -550,7 +516,7 @@ fn main() {
     }
     for (what, law, broken) in broken() {
         let name = LAWS.iter().find(|(_, l)| std::ptr::fn_addr_eq(*l, law)).map_or("", |(name, _)| *name);
-        trials.add(format!("rejected: {what} ({}; {name})", broken.page().name), move |gpu| {
+        trials.add(format!("rejected: {what} ({}; {name})", broken.about().name), move |gpu| {
             law(gpu, &broken).expect_err("a law must tell");
         });
     }

@@ -5,7 +5,8 @@
 mod common;
 
 use antumbra::{
-    CasterPass, DEPTH_FORMAT, Options, ShadowMap, Size, Technique, Unsupported, technique, technique::Caster,
+    Capabilities, CasterPass, DEPTH_FORMAT, Options, ShadowMap, Size, Technique, Unsupported, technique,
+    technique::Caster,
 };
 use antumbra_testing::{Gpu, Trials, broken::Broken};
 use glam::Vec3;
@@ -71,12 +72,12 @@ fn casters(gpu: &Gpu) {
             pass.draw(0..3, 0..1);
         });
         let with_mesh = encoded(&|pass| pass.draw_mesh(&mesh, ..));
-        let (keeps, [good, bad]) = match technique.caster() {
+        let (keeps, [good, bad]) = match technique.describe(&Capabilities::full()).unwrap().caster {
             Caster::Depth => ("keeps depth", [with_own, with_mesh]),
             _ => ("keeps triangles", [with_mesh, with_own]),
         };
         good.unwrap();
-        says(&bad.unwrap_err().to_string(), &[technique.page().name, keeps, "CasterMesh"]);
+        says(&bad.unwrap_err().to_string(), &[technique.about().name, keeps, "CasterMesh"]);
     }
 }
 
@@ -138,14 +139,14 @@ fn cutouts(_: &Gpu) {
             let made = |wgsl: &str, layouts: &[&wgpu::BindGroupLayout]| {
                 shadows.cutout_caster(&gpu.device, wgsl, layouts)
             };
-            let triangles = technique.caster() != Caster::Depth;
+            let triangles = technique.describe(&Capabilities::full()).unwrap().caster != Caster::Depth;
             assert_eq!(made(COVERS, &[&one, &one]).unwrap().is_some(), triangles);
             if !triangles {
                 continue;
             }
             let message =
                 |wgsl: &str, layouts: &[&wgpu::BindGroupLayout]| made(wgsl, layouts).unwrap_err().to_string();
-            let name = technique.page().name;
+            let name = technique.about().name;
             let groups = message(COVERS, &[&one, &one, &one]);
             says(&groups, &[name, "5 bind groups, 3 of the caller's, where 4 are possible", "at most 2"]);
             says(&message(COVERS, &[&eight]), &[name, "max_storage_buffers_per_shader_stage"]);

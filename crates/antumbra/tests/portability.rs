@@ -89,9 +89,10 @@ fn add(shaders: &mut Shaders, spec: &str, options: &Options, needs: Needs) {
     for shader in all {
         shaders.add(&format!("{spec}: {}", shader.pass), shader.text, &shader.targets, needs);
     }
-    let asks = if technique.classes().is_empty() { "" } else { CLASSIFIES };
-    let covers = if options.cutouts && technique.caster().keeps_ids() { COVERS } else { "" };
-    let receiver = ShaderText::receiver(technique.as_ref(), &device, options, 1).text();
+    let described = technique.describe(&device).unwrap();
+    let asks = if described.classes.is_empty() { "" } else { CLASSIFIES };
+    let covers = if options.cutouts && described.caster.keeps_ids() { COVERS } else { "" };
+    let receiver = ShaderText::receiver(technique.as_ref(), &device, options, 1).unwrap().text();
     shaders.add(&format!("{spec}: receiver"), format!("{RECEIVES}{asks}{covers}\n{receiver}"), &[], needs);
 }
 
@@ -106,7 +107,7 @@ fn library() -> Shaders {
     for needs in devices() {
         settings::single().iter().for_each(|spec| add(&mut shaders, spec, &usual, needs));
         for options in [&split, &usual.clone().cutouts(true), &split.clone().cutouts(true)] {
-            technique::all().iter().for_each(|t| add(&mut shaders, t.page().name, options, needs));
+            technique::all().iter().for_each(|t| add(&mut shaders, t.about().name, options, needs));
         }
     }
     let browser = Needs { features: Capabilities::OPTIONAL_FEATURES.difference(NATIVE), ..Needs::LEAST };
@@ -167,7 +168,7 @@ fn add_document(shaders: &mut Shaders, name: &str, wgsl: &str) {
     let (device, options) = (capabilities(Needs::LEAST), Options::from(Size::square(64)).views(4));
     let caster = if wgsl.contains("caster_pancaked(") { CASTER_WGSL } else { "" };
     for technique in technique::all() {
-        let name = format!("{name}: {}", technique.page().name);
+        let name = format!("{name}: {}", technique.about().name);
         if wgsl.contains("fn caster_covers(") {
             let all = Shader::all(technique.as_ref(), &device, &options, Some(wgsl)).unwrap();
             for shader in all.into_iter().filter(|shader| shader.pass == "cut-out") {
@@ -175,7 +176,7 @@ fn add_document(shaders: &mut Shaders, name: &str, wgsl: &str) {
             }
             continue;
         }
-        let receiver = ShaderText::receiver(technique.as_ref(), &device, &options, 3).text();
+        let receiver = ShaderText::receiver(technique.as_ref(), &device, &options, 3).unwrap().text();
         let receiver = if wgsl.contains("shadow_visibility(") { receiver.as_str() } else { "" };
         shaders.add(&name, [wgsl, caster, receiver].join("\n"), &[], Needs::LEAST);
     }
@@ -205,11 +206,11 @@ fn maps_compile_what_is_listed(gpu: &Gpu) {
         let map = ShadowMap::new(&gpu.device, technique.as_ref(), options.clone()).unwrap();
         let listed = Shader::all(technique.as_ref(), &device, &options, None).unwrap();
         for text in pipelines.shaders() {
-            let name = technique.page().name;
+            let name = technique.about().name;
             assert!(listed.iter().any(|shader| shader.text == text), "{name} compiles another:\n{text}");
             compiled += 1;
         }
-        let receiver = ShaderText::receiver(technique.as_ref(), &device, &options, 1).text();
+        let receiver = ShaderText::receiver(technique.as_ref(), &device, &options, 1).unwrap().text();
         assert_eq!(map.wgsl(1).text(), receiver);
     }
     assert!(compiled > technique::all().len(), "{compiled}");

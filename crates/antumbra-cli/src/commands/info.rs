@@ -13,7 +13,7 @@ pub(crate) fn techniques(names: &[String], as_json: bool) -> Result<()> {
     let mut list = Vec::new();
     let all = if names.is_empty() { &["all".to_string()] } else { names };
     for mut technique in specs::techniques(all, Filter::default().kernel)? {
-        let page = technique.page();
+        let about = technique.about();
         let parameters = technique.parameters();
         if as_json {
             let parameters: Vec<_> = parameters
@@ -23,12 +23,12 @@ pub(crate) fn techniques(names: &[String], as_json: bool) -> Result<()> {
                 })
                 .collect();
             list.push(json!({
-                "name": page.name, "title": page.title, "family": page.family.name(), "paper": page.paper,
+                "name": about.name, "title": about.title, "family": about.family.name(), "paper": about.paper,
                 "parameters": parameters,
             }));
             continue;
         }
-        writeln!(out, "{}  {} ({}; {})", page.name, page.title, page.family.name(), page.paper)?;
+        writeln!(out, "{}  {} ({}; {})", about.name, about.title, about.family.name(), about.paper)?;
         let rows: Vec<Vec<String>> = parameters
             .iter()
             .map(|p| {
@@ -78,7 +78,7 @@ pub(crate) fn adapter(as_json: bool) -> Result<()> {
     for technique in technique::all() {
         let shadows = ShadowMap::new(&gpu.device, technique.as_ref(), Size::square(64));
         let lines = shadows.map_or_else(|reason| vec![reason.to_string()], |map| map.explain());
-        choices.push((technique.page().name, lines));
+        choices.push((technique.about().name, lines));
     }
     let missing = gpu.missing_features();
     let out = &mut io::stdout();

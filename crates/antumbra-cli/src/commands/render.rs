@@ -4,7 +4,7 @@ use crate::{
     arguments::{Render, Show},
     scene, techniques,
 };
-use antumbra::Technique;
+use antumbra::{Capabilities, Technique};
 use antumbra_lab::{
     cascades,
     classes::{ClassShare, Classes},
@@ -60,7 +60,9 @@ fn checked(arguments: &Render) -> Result<Vec<Box<dyn Technique>>> {
     if techniques.len() > 1 {
         bail!("--technique {}: render takes one technique", arguments.technique);
     }
-    if arguments.show == Show::Classes && techniques.iter().all(|t| t.classes().is_empty()) {
+    let described = techniques.iter().map(|t| t.describe(&Capabilities::full()));
+    let classifies = described.flatten().any(|described| !described.classes.is_empty());
+    if arguments.show == Show::Classes && !classifies {
         bail!("--show classes: {} tells no kinds of pixels apart", arguments.technique);
     }
     if arguments.show == Show::Cascades && truth {
@@ -96,7 +98,7 @@ fn shown(
         }
         (_, Show::Cascades) => {
             let (shot, views) = (session.shot(), session.views());
-            let reach = first(session)?.shadows.technique().reach_texels();
+            let reach = first(session)?.shadows.description().filter_radius_texels;
             let maps = MapViews::reaching(views, shot.map_size, reach.into())?;
             let pixels = cascades::pixels(gpu, session.scene(), &shot.camera, &maps)?;
             let shares = cascades::shares(&pixels, views.len());

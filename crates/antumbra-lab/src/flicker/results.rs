@@ -29,8 +29,8 @@ impl Promise {
     /// show the mean over each pixel, since the shadows are finer than that.
     #[must_use]
     pub fn of(technique: &dyn Technique, path: Path) -> Self {
-        let page = technique.page();
-        match (page.name, page.family) {
+        let about = technique.about();
+        match (about.name, about.family) {
             _ if path == Path::Recede => Self::ScreenSpace,
             ("footprint", _) => Self::ScreenSpace,
             ("hard", _) | (_, Family::Geometry) => Self::Hard,

@@ -151,13 +151,13 @@ impl Series {
         prepared: &[Prepared],
         images: &mut BTreeMap<String, Vec<u8>>,
     ) -> Result<(Vec<TechniqueFlicker>, Vec<String>)> {
-        let pages = || prepared.iter().map(|c| c.shadows.technique().page());
-        let hard = pages().position(|page| page.name == "hard").map(|i| &self.singles[i]);
+        let abouts = || prepared.iter().map(|c| c.shadows.technique().about());
+        let hard = abouts().position(|about| about.name == "hard").map(|i| &self.singles[i]);
         let mut files = Vec::new();
         let mut techniques = Vec::new();
         for (single, prepared) in self.singles.iter().zip(prepared) {
             let technique = prepared.shadows.technique();
-            let (page, spec) = (technique.page(), technique::spec(technique));
+            let (about, spec) = (technique.about(), technique::spec(technique));
             let promise = Promise::of(technique, request.path);
             let own = mean(&single.flicker, promise);
             let base = hard.map(|hard| {
@@ -168,10 +168,10 @@ impl Series {
             images.insert(file.clone(), self.heat_map(single)?);
             files.push(file);
             techniques.push(TechniqueFlicker {
-                name: page.name.into(),
+                name: about.name.into(),
                 spec,
-                title: page.title.into(),
-                family: page.family,
+                title: about.title.into(),
+                family: about.family,
                 promise,
                 ratio_to_hard: ratio(own, base),
                 flicker: frames(&single.flicker, hard.map(|h| &h.flicker)),

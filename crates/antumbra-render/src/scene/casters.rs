@@ -26,7 +26,7 @@ impl Casters {
     /// # Errors
     /// More geometry than one binding may hold.
     pub fn new(gpu: &Gpu, scene: &GpuScene, shadows: &ShadowMap) -> Result<Self, RenderError> {
-        if shadows.technique().caster() == Caster::Depth {
+        if shadows.description().caster == Caster::Depth {
             return Ok(Self::Depth(ViewMatrices::new(gpu, scene, shadows.caster_views())));
         }
         let (positions, indices) = (&scene.positions, &scene.indices);

@@ -7,7 +7,10 @@ use crate::{
     verdict::{Verdict, at_least, at_most, more},
     workbench::Workbench,
 };
-use antumbra::technique::{Bias, BiasTerms, Packed};
+use antumbra::{
+    Capabilities, Technique,
+    technique::{Bias, BiasTerms, Packed},
+};
 use antumbra_lab::truth::Truth;
 use anyhow::Result;
 use std::collections::BTreeSet;
@@ -89,7 +92,8 @@ const PROJECTED: [(&str, &str); 4] = [
 ];
 
 pub(super) fn few_bits(bench: &Workbench<'_>) -> Result<Page> {
-    let floats = BiasTerms { depth_steps: 0.0, ..Bias::Auto.terms(&Packed::default()) };
+    let packed = Packed::default().describe(&Capabilities::full())?;
+    let floats = BiasTerms { depth_steps: 0.0, ..packed.bias };
     let groups = [
         ("linear depth, a bias made for floats", LINEAR, floats.into()),
         ("linear depth, the automatic bias", LINEAR, Bias::Auto),

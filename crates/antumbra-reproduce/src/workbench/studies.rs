@@ -133,7 +133,7 @@ fn look(session: &Session<'_>, prepared: &Prepared, spec: &str) -> Result<Look> 
     let (tinted, classes) = classes.map_or((None, Vec::new()), |c| (Some(c.picture.into()), c.shares));
     Ok(Look {
         spec: spec.into(),
-        title: shadows.technique().page().title.into(),
+        title: shadows.technique().about().title.into(),
         picture: picture.into(),
         visibility: visibility.values,
         tinted,

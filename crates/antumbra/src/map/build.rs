@@ -11,10 +11,12 @@ use super::{
     receiver,
 };
 use crate::{
+    describe::{Caster, Technique},
     error::Unsupported,
     light::Size,
     pass,
-    technique::{self, Binding, Caster, Technique},
+    shader::Composition,
+    technique,
 };
 use std::sync::atomic::AtomicU32;
 
@@ -65,9 +67,7 @@ impl ShadowMap {
         depth: &wgpu::Texture,
         options: impl Into<Options>,
     ) -> Result<Self, Unsupported> {
-        let views = check::depth(depth, technique.jitter().len() as u32)?;
-        let size = Size { width: depth.width(), height: depth.height() };
-        let options = Options { size, views, ..options.into() };
+        let options = options.into();
         let (map, refusal) =
             answer::ask_now(device, || Self::build(device, technique, &options, Some(depth)));
         map?.unless(refusal)
@@ -75,7 +75,7 @@ impl ShadowMap {
 
     /// Itself, unless the device refused what it is made of.
     fn unless(self, refusal: Option<Refusal>) -> Result<Self, Unsupported> {
-        let technique = self.technique.page().name.to_string();
+        let technique = self.technique.about().name.to_string();
         match refusal {
             None => Ok(self),
             Some(Refusal::Memory) => {
@@ -94,67 +94,63 @@ impl ShadowMap {
         depth: Option<&wgpu::Texture>,
     ) -> Result<Self, Unsupported> {
         technique::check(technique)?;
-        let capabilities = Capabilities::of(device);
-        let maps = technique.maps(&capabilities)?;
-        check::device(device, technique, &maps, options)?;
-        let pipelines = options.pipelines.clone().unwrap_or_else(|| Pipelines::new(device));
-        check::caster(technique, &maps, depth)?;
-        let triangles = match (technique.caster(), maps.first()) {
-            (Caster::Triangles(coverages), Some(map)) => {
-                let room = (options.size, options.views);
-                Some(TriangleCaster::new(device, technique, coverages, map.format, room, &pipelines))
-            }
-            _ => None,
-        };
-        let lists = match technique.caster() {
-            Caster::Lists => {
-                let Options { size, views, capacity, cutouts, .. } = *options;
-                let size = ListSize { size, views, capacity, cutouts };
-                check::lists(device, technique, size)?;
-                Some(Lists::new(device, technique, size, &pipelines))
-            }
-            _ => None,
-        };
-        let ranked = match technique.caster() {
-            Caster::Ranked { keeps } => {
-                let Options { size, views, capacity, cutouts, .. } = *options;
-                let size = RankedSize { size, views, keeps, capacity, cutouts };
-                check::ranked(device, technique, size)?;
-                Some(RankedTriangles::new(device, technique, size, &pipelines))
-            }
-            _ => None,
-        };
-        let compares = technique.bindings().contains(&Binding::Depth);
-        let jitter = technique.jitter();
-        let casting = (compares, jitter.len() as u32);
-        let textures = Textures::new(device, &capabilities, &maps, options, depth, casting);
         options.bias.check()?;
-        let uniforms = Uniforms::new(device, technique, &maps, options);
-        let steps = pass::plan(technique, &capabilities, &maps, options.size);
-        let draws = (0..options.views)
-            .map(|view| {
-                steps
-                    .iter()
-                    .map(|step| Draw::new(&pipelines, &textures, &uniforms, &maps, step, view))
-                    .collect()
-            })
-            .collect();
+        let capabilities = Capabilities::of(device);
+        let composition = Composition::of(technique, &capabilities, options)?;
+        let description = &composition.description;
+        let options = &match depth {
+            Some(depth) => check::depth(depth, description.sample_offsets.len() as u32, options)?,
+            None => options.clone(),
+        };
+        check::device(device, description, options)?;
+        let pipelines = options.pipelines.clone().unwrap_or_else(|| Pipelines::new(device));
+        check::caster(description, depth)?;
+        let Options { size, views, capacity, cutouts, .. } = *options;
+        let triangles = match (description.caster, description.maps.first()) {
+            (Caster::Triangles(coverages), Some(map)) => {
+                let room = (size, views);
+                Some(TriangleCaster::new(device, &composition, coverages, map.format, room, &pipelines))
+            }
+            _ => None,
+        };
+        let lists = match description.caster {
+            Caster::Lists => {
+                let size = ListSize { size, views, capacity, cutouts };
+                check::lists(device, description, size)?;
+                Some(Lists::new(device, &composition, size, &pipelines))
+            }
+            _ => None,
+        };
+        let ranked = match description.caster {
+            Caster::Ranked { keeps } => {
+                let size = RankedSize { size, views, keeps, capacity, cutouts };
+                check::ranked(device, description, size)?;
+                Some(RankedTriangles::new(device, &composition, size, &pipelines))
+            }
+            _ => None,
+        };
+        let textures = Textures::new(device, &capabilities, description, options, depth);
+        let uniforms = Uniforms::new(device, description, options);
+        let steps = pass::plan(&composition, &capabilities, size);
+        let draw = |view, step| Draw::new(&pipelines, &textures, &uniforms, &description.maps, step, view);
+        let draws = (0..views).map(|view| steps.iter().map(|step| draw(view, step)).collect()).collect();
         let (layout, bind_group) = receiver::group(
             device,
-            technique,
+            description,
             &capabilities,
             &textures,
             &uniforms,
             lists.as_ref(),
             ranked.as_ref(),
         );
+        let casts = description.sample_offsets.len();
         Ok(Self {
-            technique: technique.boxed(),
+            technique: technique.clone_box(),
+            composition,
             capabilities,
-            size: options.size,
-            room: options.views,
-            capacity: options.capacity,
-            asks: technique.caster().keeps_ids() && options.cutouts,
+            size,
+            room: views,
+            capacity,
             textures,
             uniforms,
             draws,
@@ -164,9 +160,8 @@ impl ShadowMap {
             drawn: AtomicU32::new(0),
             layout,
             bind_group,
-            views: Vec::with_capacity(options.views as usize),
-            caster_views: Vec::with_capacity(options.views as usize * jitter.len()),
-            jitter,
+            views: Vec::with_capacity(views as usize),
+            caster_views: Vec::with_capacity(views as usize * casts),
         })
     }
 }

@@ -5,13 +5,10 @@ use super::{
     lists::{ListSize, ROW},
     ranked::RankedSize,
 };
-use crate::{
-    shader::split::Splits,
-    technique::{Caster, Technique},
-};
+use crate::{describe::Caster, shader::split::Splits};
 
 /// Memory that a [`ShadowMap`](crate::ShadowMap) allocates for triangles, where its technique keeps them by
-/// id: those whose [`caster`](crate::Technique::caster) is [`Caster::Lists`] or [`Caster::Ranked`]. All
+/// id: those whose [`caster`](crate::Description::caster) is [`Caster::Lists`] or [`Caster::Ranked`]. All
 /// others ignore it.
 ///
 /// It follows from the scene. Triangles beyond it cast no shadow;
@@ -53,9 +50,9 @@ impl Capacity {
 }
 
 /// How the arrays of such a map are split into buffers.
-pub(crate) fn splits(technique: &dyn Technique, limits: &wgpu::Limits, options: &Options) -> Splits {
+pub(crate) fn splits(caster: Caster, limits: &wgpu::Limits, options: &Options) -> Splits {
     let Options { size, views, capacity, cutouts, .. } = *options;
-    match technique.caster() {
+    match caster {
         Caster::Depth | Caster::Triangles(_) => Splits::default(),
         Caster::Lists => ListSize { size, views, capacity, cutouts }.splits(limits),
         Caster::Ranked { keeps } => RankedSize { size, views, keeps, capacity, cutouts }.splits(limits),

@@ -2,9 +2,9 @@
 
 use super::{CasterMesh, CutoutCaster, caster::perspective};
 use crate::{
+    describe::{Caster, Description},
     error::CasterError,
     light::View,
-    technique::{Caster, Technique},
 };
 use std::ops::{Deref, DerefMut, Range, RangeBounds};
 use wgpu::{BindGroup, RenderPass, RenderPipeline};
@@ -156,9 +156,9 @@ impl Drawn {
     }
 
     /// Whether that is what the technique keeps. Nothing at all is: there may be no casters.
-    pub(super) fn check(self, technique: &dyn Technique) -> Result<(), CasterError> {
-        let name = || technique.page().name.to_string();
-        let depth = technique.caster() == Caster::Depth;
+    pub(super) fn check(self, description: &Description) -> Result<(), CasterError> {
+        let name = || description.about.name.to_string();
+        let depth = description.caster == Caster::Depth;
         match self {
             Self { meshes: true, .. } if depth => Err(CasterError::Mesh { technique: name() }),
             Self { meshes: false, otherwise: true } if !depth => {

@@ -4,8 +4,8 @@ use super::{DEPTH_FORMAT, cast::MeshPipeline, memory::MemoryItem, pipelines::Pip
 use crate::{
     capabilities::Capabilities,
     light::{Size, View},
-    shader::{self, Cutout, TrianglePass, split::Splits},
-    technique::{Coverage, Technique},
+    shader::{self, Composition, Cutout, TrianglePass, split::Splits},
+    technique::Coverage,
 };
 use std::num::NonZeroU64;
 use wgpu::{BindGroup, BindGroupLayout, BufferBindingType, RenderPipeline, TextureFormat};
@@ -89,7 +89,7 @@ pub(super) struct TriangleCaster {
 impl TriangleCaster {
     pub(super) fn new(
         device: &wgpu::Device,
-        technique: &dyn Technique,
+        composition: &Composition,
         coverages: &'static [Coverage],
         format: TextureFormat,
         (size, views): (Size, u32),
@@ -121,7 +121,7 @@ impl TriangleCaster {
         };
         let capabilities = Capabilities::of(device);
         let compiled = |pass| {
-            let shader = shader::triangles(technique, &capabilities, None, pass, &Splits::default());
+            let shader = shader::triangles(composition, &capabilities, None, pass, &Splits::default());
             let conservative = pass == TrianglePass::Indexed(Coverage::Touched);
             pipelines.caster(&shader, &[format], |device| {
                 compile(device, &shader, format, conservative, &layout, &[])
@@ -154,13 +154,13 @@ impl TriangleCaster {
     pub(super) fn cutout(
         &self,
         device: &wgpu::Device,
-        technique: &dyn Technique,
+        composition: &Composition,
         wgsl: &str,
         user: &[&BindGroupLayout],
     ) -> RenderPipeline {
         let (device_can, pass, splits) = (Capabilities::of(device), TrianglePass::Any, Splits::default());
         let shader =
-            shader::triangles(technique, &device_can, Some(Cutout { wgsl, by_ray: false }), pass, &splits);
+            shader::triangles(composition, &device_can, Some(Cutout { wgsl, by_ray: false }), pass, &splits);
         let own = layout(device, "shadow caster view", &[BufferBindingType::Uniform]);
         compile(device, &shader, self.format, false, &own, user)
     }

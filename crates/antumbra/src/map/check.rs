@@ -7,10 +7,10 @@ use super::{
     uniforms,
 };
 use crate::{
+    describe::{Caster, Description},
     error::{SettingError, Unsupported},
     light::Size,
     shader::split::{Split, Splits},
-    technique::{Caster, Map, Technique},
 };
 use wgpu::TextureUsages;
 
@@ -25,8 +25,7 @@ fn backend(backend: wgpu::Backend) -> Result<(), Unsupported> {
 /// Backend, size and layers against the device.
 pub(super) fn device(
     device: &wgpu::Device,
-    technique: &dyn Technique,
-    maps: &[Map],
+    description: &Description,
     options: &Options,
 ) -> Result<(), Unsupported> {
     backend(device.adapter_info().backend)?;
@@ -36,19 +35,19 @@ pub(super) fn device(
     if !(1..=max).contains(&width) || !(1..=max).contains(&height) {
         return Err(Unsupported::Size { width, height, max });
     }
-    let layers = maps.iter().map(|m| m.layers).max().unwrap_or(1).saturating_mul(options.views);
+    let layers = description.maps.iter().map(|m| m.layers).max().unwrap_or(1).saturating_mul(options.views);
     let max = limits.max_texture_array_layers;
     if !(1..=max).contains(&layers) {
         return Err(Unsupported::Layers { views: options.views, layers, max });
     }
     let most_bytes = limits.max_uniform_buffer_binding_size;
-    let most = most_bytes.saturating_sub(uniforms::bytes(technique, 0)) / uniforms::view_bytes(technique);
+    let most = most_bytes.saturating_sub(uniforms::bytes(description, 0)) / uniforms::view_bytes(description);
     if u64::from(options.views) > most {
         return Err(Unsupported::Feature {
-            technique: technique.page().name.into(),
+            technique: description.about.name.into(),
             what: format!(
                 "a uniform binding of {} bytes for {} views ({most_bytes} are possible)",
-                uniforms::bytes(technique, options.views),
+                uniforms::bytes(description, options.views),
                 options.views
             ),
             instead: format!("take at most {most} views"),
@@ -63,7 +62,7 @@ const CASTER_GROUPS: usize = 2;
 /// Whether a pass for cut-outs may have as many groups.
 pub(super) fn cutout(
     device: &wgpu::Device,
-    technique: &dyn Technique,
+    description: &Description,
     groups: usize,
 ) -> Result<(), Unsupported> {
     let (needed, max) = (CASTER_GROUPS + groups, device.limits().max_bind_groups as usize);
@@ -74,39 +73,35 @@ pub(super) fn cutout(
     let reason = format!(
         "{needed} bind groups, {groups} of the caller's, where {max} are possible; put what the shader reads into at most {most}"
     );
-    Err(Unsupported::Cutout { technique: technique.page().name.into(), reason })
+    Err(Unsupported::Cutout { technique: description.about.name.into(), reason })
 }
 
 /// Whether the casters can leave what the technique keeps.
-pub(super) fn caster(
-    technique: &dyn Technique,
-    maps: &[Map],
-    depth: Option<&wgpu::Texture>,
-) -> Result<(), Unsupported> {
-    let name = technique.page().name.to_string();
-    match (technique.caster(), depth, maps) {
+pub(super) fn caster(description: &Description, depth: Option<&wgpu::Texture>) -> Result<(), Unsupported> {
+    let name = description.about.name.to_string();
+    match (description.caster, depth, description.maps.as_slice()) {
         (Caster::Depth, ..) => Ok(()),
         (Caster::Triangles(_) | Caster::Lists | Caster::Ranked { .. }, Some(_), _) => {
             Err(Unsupported::Triangles { technique: name })
         }
-        (Caster::Lists | Caster::Ranked { .. }, None, _) if technique.jitter().len() == 1 => Ok(()),
+        (Caster::Lists | Caster::Ranked { .. }, None, _) if description.sample_offsets.len() == 1 => Ok(()),
         (Caster::Lists | Caster::Ranked { .. }, None, _) => Err(Unsupported::Feature {
             technique: name,
             what: "a single caster pass".into(),
-            instead: "describe no more in Technique::jitter".into(),
+            instead: "leave no more in Description::sample_offsets".into(),
         }),
         (Caster::Triangles(all), None, [map]) if map.layers as usize == all.len() => Ok(()),
         (Caster::Triangles(_), None, _) => Err(Unsupported::Feature {
             technique: name,
             what: "one map with a layer for each of its casters' passes".into(),
-            instead: "describe just that in Technique::maps".into(),
+            instead: "leave just that in Description::maps".into(),
         }),
     }
 }
 
 /// What a technique needs that the device lacks, and what to do.
-fn refused(technique: &dyn Technique, what: String, instead: String) -> Result<(), Unsupported> {
-    Err(Unsupported::Feature { technique: technique.page().name.into(), what, instead })
+fn refused(description: &Description, what: String, instead: String) -> Result<(), Unsupported> {
+    Err(Unsupported::Feature { technique: description.about.name.into(), what, instead })
 }
 
 /// Whether a capacity holds anything, and ids can tell all of it apart.
@@ -126,7 +121,7 @@ fn capacity(capacity: Capacity) -> Result<(), Unsupported> {
 /// Whether the lists of all triangles fit.
 pub(super) fn lists(
     device: &wgpu::Device,
-    technique: &dyn Technique,
+    description: &Description,
     extent: ListSize,
 ) -> Result<(), Unsupported> {
     capacity(extent.capacity)?;
@@ -136,9 +131,9 @@ pub(super) fn lists(
     if !(1..=max).contains(&layers) {
         return Err(Unsupported::Layers { views: extent.views, layers, max });
     }
-    let refused = |what, instead| refused(technique, what, instead);
+    let refused = |what, instead| refused(description, what, instead);
     // Marks, and two of a mesh.
-    buffers(technique, &limits, &[extent.splits(&limits).counts], 3)?;
+    buffers(description, &limits, &[extent.splits(&limits).counts], 3)?;
     let max = limits.max_texture_dimension_2d;
     if max < ROW {
         return refused(
@@ -159,7 +154,7 @@ pub(super) fn lists(
 
 /// Whether arrays that are split, and `others`, are no more storage buffers than a stage may have.
 fn buffers(
-    technique: &dyn Technique,
+    description: &Description,
     limits: &wgpu::Limits,
     split: &[Split],
     others: u32,
@@ -182,27 +177,28 @@ fn buffers(
             )
         }
     };
-    refused(technique, what, instead)
+    refused(description, what, instead)
 }
 
 /// Whether the first triangles of texels fit.
 pub(super) fn ranked(
     device: &wgpu::Device,
-    technique: &dyn Technique,
+    description: &Description,
     extent: RankedSize,
 ) -> Result<(), Unsupported> {
     capacity(extent.capacity)?;
     if extent.keeps == 0 {
-        return refused(technique, "0 triangles per texel".into(), "keep at least one".into());
+        return refused(description, "0 triangles per texel".into(), "keep at least one".into());
     }
     let limits = device.limits();
     let Splits { keys, corners, .. } = extent.splits(&limits);
     // Marks, and two of a mesh.
-    buffers(technique, &limits, &[keys, corners], 3)
+    buffers(description, &limits, &[keys, corners], 3)
 }
 
-/// Whether the passes can read a caller's depth; how many views it holds, with that many layers each.
-pub(super) fn depth(depth: &wgpu::Texture, casts: u32) -> Result<u32, Unsupported> {
+/// Whether the passes can read a caller's depth, which has that many layers for each view; options with its
+/// size and its views.
+pub(super) fn depth(depth: &wgpu::Texture, casts: u32, options: &Options) -> Result<Options, Unsupported> {
     let wrong =
         |what, found: String, needed: &str| Err(Unsupported::Depth { what, found, needed: needed.into() });
     let format = depth.format();
@@ -222,7 +218,8 @@ pub(super) fn depth(depth: &wgpu::Texture, casts: u32) -> Result<u32, Unsupporte
     if !layers.is_multiple_of(casts) {
         return wrong("layers", layers.to_string(), &format!("a multiple of {casts}, one per caster pass"));
     }
-    Ok(layers / casts)
+    let size = Size { width: depth.width(), height: depth.height() };
+    Ok(Options { size, views: layers / casts, ..options.clone() })
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! Casters with holes.
 
 use super::{ShadowMap, answer, check};
-use crate::{error::Unsupported, shader::Cutout, technique::Caster};
+use crate::{describe::Caster, error::Unsupported, shader::Cutout};
 
 /// How meshes with holes are drawn for one shadow map: made by
 /// [`ShadowMap::cutout_caster`], taken by [`CasterPass::draw_cutout`](crate::CasterPass::draw_cutout).
@@ -39,20 +39,20 @@ impl ShadowMap {
         wgsl: &str,
         layouts: &[&wgpu::BindGroupLayout],
     ) -> Result<Option<CutoutCaster>, Unsupported> {
-        let technique = self.technique.as_ref();
-        if technique.caster() == Caster::Depth {
+        let composition = &self.composition;
+        if composition.description.caster == Caster::Depth {
             return Ok(None);
         }
-        check::cutout(device, technique, layouts.len())?;
+        check::cutout(device, &composition.description, layouts.len())?;
         let (pipeline, refusal) = answer::ask_now(device, || {
-            let triangles = self.triangles.as_ref().map(|t| t.cutout(device, technique, wgsl, layouts));
-            let cutout = Cutout { wgsl, by_ray: self.asks };
-            triangles.or_else(|| self.numbered().map(|n| n.cutout(device, technique, cutout, layouts)))
+            let triangles = self.triangles.as_ref().map(|t| t.cutout(device, composition, wgsl, layouts));
+            let cutout = Cutout { wgsl, by_ray: composition.asks };
+            triangles.or_else(|| self.numbered().map(|n| n.cutout(device, composition, cutout, layouts)))
         });
         match refusal {
             None => Ok(pipeline.map(|pipeline| CutoutCaster { pipeline })),
             Some(refusal) => {
-                let technique = technique.page().name.into();
+                let technique = composition.description.about.name.into();
                 Err(Unsupported::Cutout { technique, reason: refusal.to_string() })
             }
         }

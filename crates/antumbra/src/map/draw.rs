@@ -7,8 +7,8 @@ use super::{
     uniforms::Uniforms,
 };
 use crate::{
+    describe::Map,
     pass::{self, Slot, Step, Work},
-    technique::Map,
 };
 use wgpu::TextureFormat;
 

@@ -13,7 +13,7 @@ impl ShadowMap {
     /// [`view`](CasterPass::view); a technique that draws casters several times asks for each of
     /// [`caster_views`](Self::caster_views).
     ///
-    /// Where the technique's [`caster`](crate::Technique::caster) is
+    /// Where the technique's [`caster`](crate::Description::caster) is
     /// [`Caster::Depth`](crate::technique::Caster::Depth), pipelines of the caller's own draw; casters in front of the
     /// near plane must be clamped (`unclipped_depth`) or moved ([`CASTER_WGSL`](crate::CASTER_WGSL)) onto it. Else
     /// [`CasterPass::draw_mesh`] does, and `draw` is called once per layer of
@@ -50,7 +50,7 @@ impl ShadowMap {
                 self.drawn.fetch_max(pass.ids(), Ordering::Relaxed);
             }
         };
-        let last = self.jitter.len() - 1;
+        let last = self.description().sample_offsets.len() - 1;
         self.drawn.store(0, Ordering::Relaxed);
         for view in 0..self.views.len() {
             let (depth, seen) = (self.textures.caster_target(view, 0), (view, &self.views[view]));
@@ -71,7 +71,7 @@ impl ShadowMap {
                 self.encode_view_filter(encoder, view, follows, probe);
             }
         }
-        drawn.check(self.technique.as_ref())
+        drawn.check(self.description())
     }
 
     /// What casters that number triangles have in common.
@@ -112,7 +112,7 @@ impl ShadowMap {
             multiview_mask: None,
         });
         let meshes = self.triangles.as_ref().map(|t| t.meshes((view, &self.views[view]), layer));
-        let index = view * self.jitter.len() + cast;
+        let index = view * self.description().sample_offsets.len() + cast;
         draw(&mut CasterPass::new(pass, (index, &self.caster_views[index]), meshes));
     }
 

@@ -13,11 +13,11 @@ use super::{
 use crate::{
     light::{Size, View},
     shader::{
-        self,
+        self, Composition,
         buffers::{LIST_BINDINGS, SCAN_BINDINGS},
         split::{Split, Splits},
     },
-    technique::{List, Technique},
+    technique::List,
 };
 use wgpu::{
     BindGroup, BindGroupLayout, BindingType, Buffer, BufferUsages, CompareFunction, ComputePipeline,
@@ -104,7 +104,7 @@ pub(super) struct Lists {
 impl Lists {
     pub(super) fn new(
         device: &wgpu::Device,
-        technique: &dyn Technique,
+        composition: &Composition,
         extent: ListSize,
         pipelines: &Pipelines,
     ) -> Self {
@@ -112,7 +112,7 @@ impl Lists {
         let splits = extent.splits(&device.limits());
         let more = splits.counts.count() as usize - 1;
         let layout = (draw_layout(device, more), splits);
-        let numbered = Numbered::new(device, technique, draws, CompareFunction::Always, layout, pipelines);
+        let numbered = Numbered::new(device, composition, draws, CompareFunction::Always, layout, pipelines);
         let pass = |slot: u32| {
             let (entries, triangles) = (extent.entries(), extent.capacity.triangles);
             ListPass { view: slot / 2, fills: slot % 2, entries, triangles }

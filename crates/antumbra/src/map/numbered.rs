@@ -9,8 +9,8 @@ use super::{
 use crate::{
     capabilities::Capabilities,
     light::{Size, View},
-    shader::{self, Cutout, TrianglePass, split::Splits},
-    technique::{Coverage, Technique},
+    shader::{self, Composition, Cutout, TrianglePass, split::Splits},
+    technique::Coverage,
 };
 use std::num::NonZeroU64;
 use wgpu::{
@@ -36,7 +36,7 @@ pub(super) struct Numbered {
 impl Numbered {
     pub(super) fn new(
         device: &wgpu::Device,
-        technique: &dyn Technique,
+        composition: &Composition,
         (size, views): (Size, u32),
         depth: CompareFunction,
         (layout, splits): (BindGroupLayout, Splits),
@@ -47,7 +47,7 @@ impl Numbered {
         let uniforms = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
         let compiled = |spot| {
             let pass = TrianglePass::Pulled(Coverage::Touched, spot);
-            let shader = shader::triangles(technique, &Capabilities::of(device), None, pass, &splits);
+            let shader = shader::triangles(composition, &Capabilities::of(device), None, pass, &splits);
             pipelines.caster(&shader, &[], |device| compile(device, &shader, depth, &layout, &[]))
         };
         Self {
@@ -65,12 +65,12 @@ impl Numbered {
     pub(super) fn cutout(
         &self,
         device: &wgpu::Device,
-        technique: &dyn Technique,
+        composition: &Composition,
         cutout: Cutout<'_>,
         user: &[&BindGroupLayout],
     ) -> RenderPipeline {
         let (device_can, pass) = (Capabilities::of(device), TrianglePass::Any);
-        let shader = shader::triangles(technique, &device_can, Some(cutout), pass, &self.splits);
+        let shader = shader::triangles(composition, &device_can, Some(cutout), pass, &self.splits);
         compile(device, &shader, self.depth, &self.layout, user)
     }
 

@@ -14,8 +14,11 @@ use super::{
 use crate::{
     capabilities::Capabilities,
     light::{Size, View},
-    shader::split::{Split, Splits},
-    technique::{Ranked, Technique},
+    shader::{
+        Composition,
+        split::{Split, Splits},
+    },
+    technique::Ranked,
 };
 use wgpu::{BindGroup, BindGroupLayout, Buffer, BufferUsages, CompareFunction, ShaderStages, TextureView};
 
@@ -82,7 +85,7 @@ pub(super) struct RankedTriangles {
 impl RankedTriangles {
     pub(super) fn new(
         device: &wgpu::Device,
-        technique: &dyn Technique,
+        composition: &Composition,
         extent: RankedSize,
         pipelines: &Pipelines,
     ) -> Self {
@@ -90,7 +93,7 @@ impl RankedTriangles {
         let splits = extent.splits(&device.limits());
         let layout = (layout(device, splits), splits);
         let numbered =
-            Numbered::new(device, technique, (size, views), CompareFunction::Less, layout, pipelines);
+            Numbered::new(device, composition, (size, views), CompareFunction::Less, layout, pipelines);
         let (triangles, bits) = (capacity.triangles, capacity.id_bits());
         let all: Vec<_> = (0..views).map(|view| RankedPass { view, keeps, triangles, bits }).collect();
         let passes = numbered.passes(device, "ranked passes", &all);

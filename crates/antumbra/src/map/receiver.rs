@@ -8,13 +8,13 @@ use super::{
 };
 use crate::{
     capabilities::Capabilities,
-    technique::{Binding, Technique},
+    describe::{Binding, Description},
 };
 
 /// Layout and bind group of the receiver.
 pub(super) fn group(
     device: &wgpu::Device,
-    technique: &dyn Technique,
+    description: &Description,
     capabilities: &Capabilities,
     textures: &Textures,
     uniforms: &Uniforms,
@@ -28,7 +28,7 @@ pub(super) fn group(
         multisampled: false,
     };
     let filterable = textures.maps().iter().all(|m| capabilities.filters(m.texture.format()));
-    let bindings = technique.bindings();
+    let bindings = &description.bindings;
     let samplers: Vec<wgpu::Sampler> =
         bindings.iter().map(|binding| textures::sampler(device, *binding, filterable)).collect();
     let mut layout = vec![uniforms::layout_entry(0)];

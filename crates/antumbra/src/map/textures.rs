@@ -7,15 +7,15 @@ use super::{
 };
 use crate::{
     capabilities::Capabilities,
+    describe::{Binding, Description, Map, Pass},
     light::Size,
     pass::{self, Place, Slot, Step},
-    technique::{Binding, Map, Pass},
 };
 use wgpu::{
     TextureAspect, TextureFormat, TextureUsages, TextureView, TextureViewDescriptor, TextureViewDimension,
 };
 
-/// One entry of `Technique::maps`, allocated.
+/// One entry of `Description::maps`, allocated.
 #[derive(Debug)]
 pub(super) struct Kept {
     pub(super) name: &'static str,
@@ -51,11 +51,12 @@ impl Textures {
     pub(super) fn new(
         device: &wgpu::Device,
         capabilities: &Capabilities,
-        maps: &[Map],
+        description: &Description,
         options: &Options,
         depth: Option<&wgpu::Texture>,
-        (compares, casts): (bool, u32),
     ) -> Self {
+        let Description { maps, sample_offsets, .. } = description;
+        let (compares, casts) = (description.reads_depth(), sample_offsets.len() as u32);
         let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING;
         let layers = if compares { options.views } else { casts.min(4) };
         let casters = depth.cloned().unwrap_or_else(|| {

@@ -2,9 +2,10 @@
 
 use super::{Options, memory::MemoryItem};
 use crate::{
+    bias::BiasTerms,
+    describe::{Description, Pass},
     kernel::{Adaptive, MOST_SIDE, Width},
     light::{Size, View},
-    technique::{BiasTerms, Map, Pass, Technique},
 };
 
 /// Rust side of `ShadowView` in the receiver's glue.
@@ -31,15 +32,18 @@ struct PerView {
 }
 
 impl PerView {
-    fn of(technique: &dyn Technique) -> Self {
-        let widths = technique.widths().into_iter().map(|(_, width)| width).collect();
-        Self { widths, blur: technique.blur() }
+    fn of(description: &Description) -> Self {
+        let widths = description.widths.iter().map(|(_, width)| *width).collect();
+        Self { widths, blur: description.blur }
+    }
+
+    fn len(&self) -> usize {
+        self.widths.len() + usize::from(self.blur.is_some())
     }
 
     /// Size of one view's part of the receivers' buffer.
     fn bytes(&self) -> u64 {
-        let numbers = self.widths.len() + usize::from(self.blur.is_some());
-        (VIEW_BYTES + 4 * numbers as u64).next_multiple_of(16)
+        (VIEW_BYTES + 4 * self.len() as u64).next_multiple_of(16)
     }
 
     fn at(&self, texel_world: f32) -> impl Iterator<Item = f32> {
@@ -53,7 +57,8 @@ impl PerView {
 pub(super) struct Uniforms {
     receiver: wgpu::Buffer,
     convert: wgpu::Buffer,
-    /// Distance between the convert settings of two views.
+    /// Size of the convert settings of one view, and distance between those of two.
+    convert_bytes: u64,
     stride: u64,
     room: usize,
     bytes: Vec<u8>,
@@ -68,15 +73,11 @@ pub(super) struct Uniforms {
 }
 
 impl Uniforms {
-    pub(super) fn new(
-        device: &wgpu::Device,
-        technique: &dyn Technique,
-        maps: &[Map],
-        options: &Options,
-    ) -> Self {
+    pub(super) fn new(device: &wgpu::Device, description: &Description, options: &Options) -> Self {
         let (width, height) = (options.size.width as f32, options.size.height as f32);
-        let scalars = scalars(technique, options.bias.terms(technique), options.size);
-        let settings = technique.uniforms().len();
+        let scalars = scalars(description, options.bias.terms(description.bias), options.size);
+        let per_view = PerView::of(description);
+        let settings = description.settings.len();
         let room = options.views as usize;
         let buffer = |label, size: u64| {
             device.create_buffer(&wgpu::BufferDescriptor {
@@ -87,24 +88,27 @@ impl Uniforms {
             })
         };
         let alignment = u64::from(device.limits().min_uniform_buffer_offset_alignment);
-        let stride = convert_bytes(settings).next_multiple_of(alignment);
-        let passes = maps.iter().flat_map(|map| &map.passes);
+        let convert_bytes = convert_bytes(settings + per_view.len());
+        let stride = convert_bytes.next_multiple_of(alignment);
+        let passes = description.maps.iter().flat_map(|map| &map.passes);
         let blur = passes.filter_map(|pass| match pass {
             Pass::Blur(kernel, _) => kernel.adaptive,
             Pass::Mips(_) | Pass::Sum(_) => None,
         });
-        let receiver = buffer("shadow receiver", bytes(technique, options.views));
+        let receiver = buffer("shadow receiver", bytes(description, options.views));
         Self {
             convert: buffer("shadow convert", room as u64 * stride),
             bytes: Vec::with_capacity(receiver.size().max(room as u64 * stride) as usize),
             receiver,
+            convert_bytes,
             stride,
             room,
             scalars,
             settings,
             // A lookup within half a texel of the border would read beyond it; so does a kernel.
-            reach: [1.0 / width, 1.0 / height].map(|texel| (technique.reach_texels() * texel).min(0.499)),
-            per_view: PerView::of(technique),
+            reach: [1.0 / width, 1.0 / height]
+                .map(|texel| (description.filter_radius_texels * texel).min(0.499)),
+            per_view,
             blur: blur.into_iter().next(),
         }
     }
@@ -121,6 +125,7 @@ impl Uniforms {
             self.bytes.extend_from_slice(bytemuck::cast_slice(&side));
             self.bytes.extend_from_slice(bytemuck::cast_slice(&[reach as f32, view.near_over_far]));
             self.bytes.extend_from_slice(bytemuck::cast_slice(settings));
+            extend(&mut self.bytes, self.per_view.at(view.texel_world));
         }
         queue.write_buffer(&self.convert, 0, &self.bytes);
     }
@@ -133,7 +138,7 @@ impl Uniforms {
         wgpu::BindingResource::Buffer(wgpu::BufferBinding {
             buffer: &self.convert,
             offset: u64::from(view) * self.stride,
-            size: std::num::NonZeroU64::new(convert_bytes(self.settings)),
+            size: std::num::NonZeroU64::new(self.convert_bytes),
         })
     }
 
@@ -146,23 +151,24 @@ impl Uniforms {
 }
 
 /// Size of the receivers' buffer: views, their count, nine scalars, settings.
-pub(super) fn bytes(technique: &dyn Technique, views: u32) -> u64 {
-    let scalars = 4 * (10 + technique.uniforms().len() as u64);
-    (u64::from(views) * view_bytes(technique) + scalars).next_multiple_of(16)
+pub(super) fn bytes(description: &Description, views: u32) -> u64 {
+    let scalars = 4 * (10 + description.settings.len() as u64);
+    (u64::from(views) * view_bytes(description) + scalars).next_multiple_of(16)
 }
 
 /// Size of one view's part of the receivers' buffer.
-pub(super) fn view_bytes(technique: &dyn Technique) -> u64 {
-    PerView::of(technique).bytes()
+pub(super) fn view_bytes(description: &Description) -> u64 {
+    PerView::of(description).bytes()
 }
 
-/// Size of one view's convert settings: blur weights and reach, the view's ratio, settings.
+/// Size of one view's convert settings: blur weights and reach, the view's ratio, settings and what each view
+/// has of its own.
 fn convert_bytes(settings: usize) -> u64 {
     (4 * (MOST_SIDE as u64 + 2 + settings as u64)).next_multiple_of(16)
 }
 
 /// What follows `views` and `view_count`: size, bias, settings.
-fn scalars(technique: &dyn Technique, bias: BiasTerms, size: Size) -> Vec<f32> {
+fn scalars(description: &Description, bias: BiasTerms, size: Size) -> Vec<f32> {
     let (width, height) = (size.width as f32, size.height as f32);
     let fixed = [
         width,
@@ -172,10 +178,16 @@ fn scalars(technique: &dyn Technique, bias: BiasTerms, size: Size) -> Vec<f32> {
         bias.normal_offset_texels,
         bias.grazing_offset_texels,
         bias.receiver_plane,
-        bias.depth_steps * technique.depth_step(),
+        bias.depth_steps * description.depth_quantum,
         bias.depth_steps,
     ];
-    fixed.into_iter().chain(technique.uniforms().into_iter().map(|(_, value)| value)).collect()
+    fixed.into_iter().chain(description.settings.iter().map(|(_, value)| *value)).collect()
+}
+
+fn extend(bytes: &mut Vec<u8>, numbers: impl Iterator<Item = f32>) {
+    for number in numbers {
+        bytes.extend_from_slice(&number.to_ne_bytes());
+    }
 }
 
 /// `ShadowUniforms` of the receiver's glue, with blank views up to `room`.
@@ -202,9 +214,7 @@ fn receiver_bytes(
             reach_y: reach[1],
         });
         bytes.extend_from_slice(bytemuck::bytes_of(&view));
-        for number in views.get(i).into_iter().flat_map(|view| per_view.at(view.texel_world)) {
-            bytes.extend_from_slice(&number.to_ne_bytes());
-        }
+        extend(bytes, views.get(i).into_iter().flat_map(|view| per_view.at(view.texel_world)));
     }
     bytes.resize(room * stride, 0);
     bytes.extend_from_slice(&(views.len() as u32).to_ne_bytes());

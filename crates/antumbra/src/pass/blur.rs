@@ -5,7 +5,7 @@
 //! GPUs. Kernels whose width depends on the view loop over weights from a uniform buffer.
 
 use super::{Place, Run, Slot, Step, combine, targets};
-use crate::{kernel::Kernel, technique::Combine};
+use crate::{describe::Combine, kernel::Kernel};
 
 /// Layers that are convolved at once: with more, software drivers run out of registers.
 const TOGETHER: u32 = 4;

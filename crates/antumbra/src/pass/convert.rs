@@ -2,10 +2,9 @@
 
 use super::{Place, Run, Slot, Step, blur, combine, targets};
 use crate::{
-    capabilities::Capabilities,
+    describe::{Combine, Encode, Map},
     kernel::Kernel,
-    shader::ShaderText,
-    technique::{Combine, Encode, Map, Technique},
+    shader::{Composition, settings},
 };
 
 /// WGSL that gives encoded texels: `convert_source(p, which)` and `convert_layer(source, layer)`.
@@ -16,10 +15,10 @@ pub(super) struct Source {
 }
 
 impl Source {
-    pub(super) fn new(technique: &dyn Technique, device: &Capabilities, map: &Map) -> Self {
-        let uniforms = technique.uniforms();
-        let members: String = uniforms.iter().map(|(name, _)| format!(", {name}: f32")).collect();
-        let settings: String = uniforms.iter().map(|(name, _)| format!(", convert.{name}")).collect();
+    pub(super) fn new(composition: &Composition, map: &Map) -> Self {
+        let description = &composition.description;
+        let names = settings::once(description).chain(settings::per_view(description));
+        let members: String = names.map(|name| format!(", {name}: f32")).collect();
         let (kind, function, depth) = match map.encode {
             Encode::Texel(function) => ("f32", function, include_str!("convert/texel.wgsl")),
             Encode::Neighbours(function) => ("mat3x3f", function, include_str!("convert/neighbours.wgsl")),
@@ -27,8 +26,8 @@ impl Source {
         let glue = include_str!("convert/depth.wgsl.in")
             .replace("{members}", &members)
             .replace("{kind}", kind)
-            .replace("{call}", &format!("{function}(source, layer{settings})"));
-        Self { wgsl: ShaderText::library(technique, device).text() + &glue + depth, encode: map.encode }
+            .replace("{call}", &format!("{function}(source, layer)"));
+        Self { wgsl: composition.for_convert() + &glue + depth, encode: map.encode }
     }
 
     /// Whether texels may be encoded once per tap.

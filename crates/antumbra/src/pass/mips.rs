@@ -1,7 +1,7 @@
 //! Mip chain: each level puts 2×2 texels of the level above together.
 
 use super::{Run, Step, combine, targets};
-use crate::technique::Combine;
+use crate::describe::Combine;
 
 /// One step per level.
 pub(super) fn steps(how: Combine, run: Run, levels: u32) -> impl Iterator<Item = Step> {

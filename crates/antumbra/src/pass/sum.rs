@@ -17,7 +17,8 @@ pub(super) fn steps(source: &Source, table: &Table, map: usize, layers: u32, siz
         targets: vec![target],
     };
     // This pass knows no technique: the arithmetic alone.
-    let columns = shader::file(table.arithmetic()).to_string() + include_str!("sum/columns.wgsl");
+    let columns =
+        shader::file(table.arithmetic()).unwrap_or_default().to_string() + include_str!("sum/columns.wgsl");
     (0..layers)
         .flat_map(|layer| {
             let rows = include_str!("sum/rows.wgsl.in")

@@ -1,12 +1,12 @@
 //! All shaders of a technique, without a device: for those who check or compile them beforehand.
 
-use super::{Cutout, MapSize, ShaderText, TrianglePass, receiver, scan, triangles};
+use super::{Composition, Cutout, MapSize, ShaderText, TrianglePass, scan, triangles};
 use crate::{
     capabilities::Capabilities,
+    describe::{Caster, Coverage, Technique},
     error::Unsupported,
     map::{self, DEPTH_FORMAT, Options},
     pass::{self, Slot, Work},
-    technique::{Caster, Coverage, Map, Technique},
 };
 use wgpu::TextureFormat;
 
@@ -27,18 +27,18 @@ impl Shader {
     /// [`ShadowMap::cutout_caster`](crate::ShadowMap::cutout_caster), that pipeline's too.
     ///
     /// # Errors
-    /// As [`Technique::maps`].
+    /// As [`Technique::describe`], or [`Unsupported::Description`].
     pub fn all(
         technique: &dyn Technique,
         device: &Capabilities,
         options: &Options,
         cutout: Option<&str>,
     ) -> Result<Vec<Self>, Unsupported> {
-        let maps = technique.maps(device)?;
-        let mut shaders = casters(technique, device, options, &maps, cutout);
-        for step in pass::plan(technique, device, &maps, options.size) {
+        let composition = Composition::of(technique, device, options)?;
+        let mut shaders = casters(&composition, device, options, cutout);
+        for step in pass::plan(&composition, device, options.size) {
             let format = |slot| match slot {
-                Slot::Map(i) | Slot::Scratch(i) => maps[i].format,
+                Slot::Map(i) | Slot::Scratch(i) => composition.description.maps[i].format,
                 Slot::Casters | Slot::Casts { .. } => DEPTH_FORMAT,
             };
             let targets = match step.work {
@@ -56,15 +56,15 @@ impl Shader {
 
 /// Those that draw triangles.
 fn casters(
-    technique: &dyn Technique,
+    composition: &Composition,
     device: &Capabilities,
     options: &Options,
-    maps: &[Map],
     cutout: Option<&str>,
 ) -> Vec<Shader> {
     use TrianglePass::{Any, Indexed, Pulled};
+    let caster = composition.description.caster;
     let pulled = |coverage| [Pulled(coverage, false), Pulled(coverage, true)];
-    let passes = match technique.caster() {
+    let passes = match caster {
         Caster::Depth => return Vec::new(),
         Caster::Lists | Caster::Ranked { .. } => pulled(Coverage::Touched).to_vec(),
         Caster::Triangles(coverages) => {
@@ -76,18 +76,18 @@ fn casters(
             coverages.iter().copied().flat_map(pulled).chain(indexed).collect()
         }
     };
-    let targets: Vec<TextureFormat> = match technique.caster() {
-        Caster::Triangles(_) => maps.iter().map(|map| map.format).collect(),
+    let targets: Vec<TextureFormat> = match caster {
+        Caster::Triangles(_) => composition.description.maps.iter().map(|map| map.format).collect(),
         _ => Vec::new(),
     };
     let shader = |pass, text| Shader { pass, text, targets: targets.clone() };
-    let splits = map::splits(technique, &device.limits, options);
-    let cast = |pass| shader("cast", triangles(technique, device, None, pass, &splits));
+    let splits = map::splits(caster, &device.limits, options);
+    let cast = |pass| shader("cast", triangles(composition, device, None, pass, &splits));
     let mut shaders: Vec<Shader> = passes.into_iter().map(cast).collect();
-    let by_ray = options.cutouts && technique.caster().keeps_ids();
-    let holed = |wgsl| triangles(technique, device, Some(Cutout { wgsl, by_ray }), Any, &splits);
+    let by_ray = composition.asks;
+    let holed = |wgsl| triangles(composition, device, Some(Cutout { wgsl, by_ray }), Any, &splits);
     shaders.extend(cutout.map(|wgsl| shader("cut-out", holed(wgsl))));
-    if technique.caster() == Caster::Lists {
+    if caster == Caster::Lists {
         shaders.push(Shader { pass: "scan", text: scan(&splits), targets: Vec::new() });
     }
     shaders
@@ -96,11 +96,18 @@ fn casters(
 impl ShaderText {
     /// What [`ShadowMap::wgsl`](crate::ShadowMap::wgsl) gives for a map with these options on such a
     /// device, bound in `group`.
-    #[must_use]
-    pub fn receiver(technique: &dyn Technique, device: &Capabilities, options: &Options, group: u32) -> Self {
-        let splits = map::splits(technique, &device.limits, options);
-        let asks = options.cutouts && technique.caster().keeps_ids();
-        let size = MapSize { views: options.views, capacity: options.capacity, splits, asks };
-        receiver(technique, device, size, group)
+    ///
+    /// # Errors
+    /// As [`Technique::describe`], or [`Unsupported::Description`].
+    pub fn receiver(
+        technique: &dyn Technique,
+        device: &Capabilities,
+        options: &Options,
+        group: u32,
+    ) -> Result<Self, Unsupported> {
+        let composition = Composition::of(technique, device, options)?;
+        let splits = map::splits(composition.description.caster, &device.limits, options);
+        let size = MapSize { views: options.views, capacity: options.capacity, splits };
+        Ok(composition.receiver(size, group))
     }
 }

@@ -1,14 +1,15 @@
-use super::{split::Split, *};
-use crate::technique::{self, all, parse};
+use super::{files::FILES, receiver::buffer_accessors, split::Split, *};
+use crate::{
+    describe::{Binding, Description, Technique},
+    error::{DescriptionError, Unsupported},
+    map::Capacity,
+    technique::{self, parse},
+};
 use antumbra_testing::{settings, shaders::parse as validate};
 use naga::AddressSpace;
 
-const SIZE: MapSize = MapSize {
-    views: 3,
-    capacity: Capacity { triangles: 1000, triangles_per_texel: 4 },
-    splits: WHOLE,
-    asks: false,
-};
+const SIZE: MapSize =
+    MapSize { views: 3, capacity: Capacity { triangles: 1000, triangles_per_texel: 4 }, splits: WHOLE };
 const ONE: Split = Split { elements: 3000, each: 3000 };
 const WHOLE: Splits = Splits { keys: ONE, corners: ONE, counts: ONE };
 /// Arrays that are larger than bindings.
@@ -20,14 +21,19 @@ const PARTS: Splits = Splits {
 
 /// Everything and nothing of what devices may lack.
 fn devices() -> [Capabilities; 2] {
-    let lesser = Capabilities { features: wgpu::Features::empty(), limits: wgpu::Limits::default() };
-    let full = Capabilities { features: Capabilities::OPTIONAL_FEATURES, ..lesser.clone() };
-    [full, lesser]
+    [Capabilities::full(), Capabilities::least()]
 }
 
-/// The techniques with each setting changed by itself.
+/// The techniques with each setting changed by itself, and what else they say is worth testing.
 fn variants() -> Vec<Box<dyn Technique>> {
-    settings::single().iter().map(|spec| parse(spec).unwrap()).collect()
+    settings::single().iter().chain(&settings::variants()).map(|spec| parse(spec).unwrap()).collect()
+}
+
+/// What is composed of a technique.
+fn composed(technique: &dyn Technique, device: &Capabilities, asks: bool) -> Composition {
+    let description = technique.describe(device).unwrap();
+    let asks = asks && description.caster.keeps_ids();
+    Composition::new(description, asks).unwrap()
 }
 
 /// What a library file may look like: names, kinds of declaration, docs, sampling.
@@ -79,16 +85,19 @@ fn check_file(stem: &str, text: &str) -> Result<(), String> {
 }
 
 /// All library files: shared ones by stem, techniques by name.
-fn files() -> Vec<(String, &'static str)> {
-    let shared = FILES.iter().map(|(stem, text)| ((*stem).to_string(), *text));
-    let own = all().into_iter().map(|t| (t.page().name.to_string(), t.wgsl()));
+fn files() -> Vec<(String, String)> {
+    let shared = FILES.iter().map(|(stem, text)| ((*stem).to_string(), (*text).to_string()));
+    let own = variants().into_iter().map(|technique| {
+        let Description { about, wgsl, .. } = technique.describe(&Capabilities::full()).unwrap();
+        (about.name.to_string(), wgsl.into_owned())
+    });
     shared.chain(own).collect()
 }
 
 #[test]
 fn library_files_keep_the_rules() {
     for (stem, text) in files() {
-        check_file(&stem, text).unwrap();
+        check_file(&stem, &text).unwrap();
     }
 }
 
@@ -124,9 +133,9 @@ fn every_shared_file_validates_with_its_needs_and_nothing_else() {
             ["blur_adaptive", "level_manual", "words_2", "reference_stepped", "points_texel"],
             ["blur_fixed", "level_logarithmic", "words_4", "reference_exact", "points_map"],
         ] {
-            let mut text = ShaderText::file(stem, &parts).text();
+            let mut text = ShaderText::of(stem, &parts).unwrap().text();
             if text.contains("shadow_blur(") {
-                text += NO_BLUR;
+                text += "fn shadow_blur(view: u32) -> f32 { return 0.0; }\n";
             }
             let module = validate(&text).unwrap_or_else(|e| panic!("{stem}: {e}"));
             assert!(module.global_variables.is_empty(), "{stem} binds something");
@@ -138,11 +147,12 @@ fn every_shared_file_validates_with_its_needs_and_nothing_else() {
 fn every_technique_validates_with_its_needs() {
     for device in devices() {
         for technique in variants() {
-            let mut text = ShaderText::library(technique.as_ref(), &device).text();
+            let composition = composed(technique.as_ref(), &device, false);
+            let mut text = composition.alone().text();
             // Buffers are read through functions that come with them.
-            for binding in technique.bindings() {
+            for binding in &composition.description.bindings {
                 let Binding::Ranked(ranked) = binding else { continue };
-                for line in accessors(ranked, "nothing", SIZE).lines() {
+                for line in buffer_accessors(*ranked, "nothing", SIZE, false).lines() {
                     let (head, _) = line.split_once(" {").unwrap();
                     let (_, result) = head.split_once("-> ").unwrap();
                     text += &format!("{head} {{ return {result}(); }}\n");
@@ -160,8 +170,9 @@ fn every_technique_validates_with_its_needs() {
 fn split_arrays_validate() {
     for device in devices() {
         let dpm = parse("dpm").unwrap();
-        let module =
-            validate(&receiver(dpm.as_ref(), &device, MapSize { splits: PARTS, ..SIZE }, 2).text()).unwrap();
+        let split = MapSize { splits: PARTS, ..SIZE };
+        let text = composed(dpm.as_ref(), &device, false).receiver(split, 2).text();
+        let module = validate(&text).unwrap();
         let mut bound: Vec<u32> =
             module.global_variables.iter().filter_map(|(_, v)| Some(v.binding.as_ref()?.binding)).collect();
         bound.sort_unstable();
@@ -177,19 +188,14 @@ fn every_receiver_binds_what_the_technique_names() {
     for device in devices() {
         for technique in variants() {
             let spec = technique::spec(technique.as_ref());
-            let module = validate(&receiver(technique.as_ref(), &device, SIZE, 2).text())
-                .unwrap_or_else(|e| panic!("{spec}: {e}"));
+            let composition = composed(technique.as_ref(), &device, false);
+            let module =
+                validate(&composition.receiver(SIZE, 2).text()).unwrap_or_else(|e| panic!("{spec}: {e}"));
             let covers = "fn shadow_covers(tag: u32, triangle: u32, weights: vec3f) -> bool { return tag > triangle; }\n";
-            let asking = receiver(
-                technique.as_ref(),
-                &device,
-                MapSize { asks: technique.caster().keeps_ids(), ..SIZE },
-                2,
-            )
-            .text();
+            let asking = composed(technique.as_ref(), &device, true).receiver(SIZE, 2).text();
             validate(&format!("{covers}{asking}")).unwrap_or_else(|e| panic!("{spec}: {e}"));
             let bound: Vec<_> = module.global_variables.iter().filter_map(|(_, v)| v.binding).collect();
-            assert_eq!(bound.len(), 1 + technique.bindings().len(), "{spec}");
+            assert_eq!(bound.len(), 1 + composition.description.bindings.len(), "{spec}");
             assert!(bound.iter().all(|b| b.group == 2), "{spec}: {bound:?}");
             let uniforms =
                 module.global_variables.iter().filter(|(_, v)| v.space == AddressSpace::Uniform).count();
@@ -205,19 +211,15 @@ fn declarations(text: &str, name: &str) -> usize {
 }
 
 #[test]
-fn every_constant_replaces_exactly_one_declaration() {
+fn every_constant_replaces_its_declaration() {
     for device in devices() {
         for technique in variants() {
-            let text = ShaderText::library(technique.as_ref(), &device).text();
-            for constant in technique.constants() {
-                let (name, value) = match &constant {
-                    Constant::Count(name, n) => (*name, format!("= {n}u;")),
-                    Constant::Number(name, x) => (*name, format!("= {x:?};")),
-                    Constant::Array(name, values) => (*name, format!("array<f32, {}>", values.len())),
-                };
-                assert_eq!(declarations(&text, name), 1, "{name}");
-                let line = text.lines().find(|l| l.starts_with(&format!("const {name}"))).unwrap();
-                assert!(line.contains(&value), "{line}");
+            let composition = composed(technique.as_ref(), &device, false);
+            let text = composition.alone().text();
+            for constant in &composition.description.constants {
+                let declared = constant.declaration();
+                assert_eq!(text.lines().filter(|line| *line == declared).count(), 1, "{declared}");
+                assert_eq!(declarations(&text, constant.name()), 1, "{declared}");
             }
         }
     }
@@ -229,7 +231,8 @@ fn every_constant_replaces_exactly_one_declaration() {
 fn an_error_is_found_at_its_file_and_line() {
     let [device, _] = devices();
     for user in ["", "fn mine() {}", "fn mine() {}\n", "enable f16;\n\nfn mine() {}\n\n"] {
-        let mut shader = receiver(&technique::csm::Csm::default(), &device, SIZE, 0);
+        let csm = technique::csm::Csm::default();
+        let mut shader = composed(&csm, &device, false).receiver(SIZE, 0);
         for piece in 0..shader.pieces.len() {
             let good = shader.pieces[piece].1.clone();
             let wrong = "fn wrong() -> u32 { return nonsense; }\n";
@@ -249,4 +252,102 @@ fn an_error_is_found_at_its_file_and_line() {
         }
         assert_eq!(shader.locate(user, 100_000), None);
     }
+}
+
+/// Why a description of hard that was edited cannot be composed.
+fn refusal(edit: impl Fn(&mut Description)) -> DescriptionError {
+    let mut described = technique::hard::Hard::default().describe(&Capabilities::full()).unwrap();
+    edit(&mut described);
+    match Composition::new(described, false) {
+        Err(Unsupported::Description { technique, error }) if technique == "hard" => error,
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn what_cannot_be_composed_is_named() {
+    use DescriptionError as E;
+    let said = |error: &E, words: &[&str]| {
+        let message = error.to_string();
+        assert!(words.iter().all(|word| message.contains(word)), "{message}");
+    };
+    let file = refusal(|d| d.wgsl = "//! needs nothing_there\n".into());
+    said(&file, &["'nothing_there'", "lookup_fitted"]);
+    let wrong = refusal(|d| d.slots = vec!["reference_wrong"]);
+    said(&wrong, &["'reference_wrong'", "reference_exact"]);
+    let slot = refusal(|d| d.slots.clear());
+    said(&slot, &["'reference'", "reference_exact, reference_stepped"]);
+    assert!(matches!(slot, E::Slot { .. }), "{slot}");
+    let twice = "//! needs reference\nconst hard_a: u32 = 1;\nconst hard_a: u32 = 1;\n";
+    for (wgsl, found) in [(twice, 2), ("//! needs reference\n", 0)] {
+        let constant = refusal(|d| {
+            d.wgsl = wgsl.into();
+            d.constants.push(crate::describe::Constant::Count("hard_a", 2));
+        });
+        assert_eq!(constant, E::Constant { name: "hard_a".into(), found });
+    }
+    let endless = "for (var i = 0u; i < many; i += 1u) { // unrolled";
+    said(&refusal(|d| d.wgsl = format!("{endless}\n}}\n").into()), &[endless]);
+}
+
+#[test]
+fn what_contradicts_itself_is_named() {
+    use DescriptionError as E;
+    assert_eq!(refusal(|d| d.sample_offsets.clear()), E::SampleOffsets);
+    let passes = |d: &mut Description| d.sample_offsets = vec![glam::Vec2::ZERO; 5];
+    assert_eq!(refusal(passes), E::Layers { passes: 5, layers: 0 });
+    for binding in [
+        Binding::Map(0),
+        Binding::List(crate::describe::List::Ranges),
+        Binding::Ranked(crate::describe::Ranked::Keys),
+    ] {
+        let error = refusal(|d| d.bindings.push(binding));
+        assert!(matches!(&error, E::Binding { binding: b, .. } if *b == format!("{binding:?}")), "{error}");
+    }
+}
+
+/// Number of parameters of each function of a text.
+fn parameters(text: &str) -> Vec<(String, usize)> {
+    let functions = text.split("fn ").skip(1).filter_map(|rest| rest.split_once('('));
+    let counted = functions.map(|(name, rest)| {
+        let (mut depth, mut count) = (1, 1);
+        for c in rest.chars() {
+            match c {
+                '(' | '<' => depth += 1,
+                ')' | '>' => depth -= 1,
+                ',' if depth == 1 => count += 1,
+                _ => {}
+            }
+            if depth == 0 {
+                break;
+            }
+        }
+        (name.to_string(), count)
+    });
+    counted.collect()
+}
+
+/// More would be confused with one another.
+#[test]
+fn no_function_has_more_than_nine_parameters() {
+    const MAX: usize = 9;
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut folders = vec![root];
+    let mut functions = 0;
+    while let Some(folder) = folders.pop() {
+        for path in std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.to_string_lossy().ends_with(".wgsl")
+                || path.to_string_lossy().ends_with(".wgsl.in")
+            {
+                for (name, count) in parameters(&std::fs::read_to_string(&path).unwrap()) {
+                    assert!(count <= MAX, "{}: {name} has {count} parameters", path.display());
+                    functions += 1;
+                }
+            }
+        }
+    }
+    assert!(functions > 150, "{functions}");
+    assert_eq!(parameters("fn f(a: array<f32, 4>, b: vec2f) -> f32 {}"), [("f".to_string(), 2)]);
 }

@@ -6,7 +6,7 @@
 //!
 //! Sigg & Hadwiger 2005, "Fast third-order texture filtering", GPU Gems 2, ch. 20.
 
-use super::{BiasTerms, Binding, Constant, DepthSpace, Family, Map, Page, Technique};
+use super::{About, Description, Family, Technique};
 use crate::{capabilities::Capabilities, error::Unsupported, parameter::Parameter, precision::Precision};
 
 /// Bicubic percentage-closer filtering. 4 bilinear lookups; 4 bytes per texel (32-bit depth).
@@ -18,8 +18,8 @@ pub struct Bicubic {
 }
 
 impl Technique for Bicubic {
-    fn page(&self) -> Page {
-        Page {
+    fn about(&self) -> About {
+        About {
             name: "bicubic",
             title: "Bicubic percentage-closer filtering",
             family: Family::Comparison,
@@ -29,37 +29,18 @@ impl Technique for Bicubic {
     fn parameters(&mut self) -> Vec<Parameter<'_>> {
         vec![self.precision.parameter()]
     }
-    fn maps(&self, _: &Capabilities) -> Result<Vec<Map>, Unsupported> {
-        Ok(Vec::new())
+    fn describe(&self, _: &Capabilities) -> Result<Description, Unsupported> {
+        let (wgsl, linear) = (include_str!("bicubic.wgsl"), wgpu::FilterMode::Linear);
+        Ok(Description {
+            filter_radius_texels: 2.0,
+            fetches: 4,
+            ..Description::comparison(self.about(), wgsl, linear, self.precision)
+        })
     }
-    fn bindings(&self) -> Vec<Binding> {
-        vec![Binding::Depth, Binding::Compare(wgpu::FilterMode::Linear)]
+    fn variants(&self) -> Vec<&'static str> {
+        Precision::VARIANTS.to_vec()
     }
-    fn wgsl(&self) -> &'static str {
-        include_str!("bicubic.wgsl")
-    }
-    fn constants(&self) -> Vec<Constant> {
-        self.precision.constants()
-    }
-    fn parts(&self, _: &Capabilities) -> Vec<&'static str> {
-        vec![self.precision.part()]
-    }
-    fn bias(&self) -> BiasTerms {
-        BiasTerms::FOURS
-    }
-    fn depth_step(&self) -> f32 {
-        self.precision.step()
-    }
-    fn depth_space(&self) -> DepthSpace {
-        DepthSpace::Raster
-    }
-    fn reach_texels(&self) -> f32 {
-        2.0
-    }
-    fn lookups(&self) -> u32 {
-        4
-    }
-    fn boxed(&self) -> Box<dyn Technique> {
+    fn clone_box(&self) -> Box<dyn Technique> {
         Box::new(*self)
     }
 }

@@ -8,11 +8,11 @@
 //! Annen, Mertens, Bekaert, Seidel, Kautz 2007, "Convolution shadow maps". Eq. 11 there has the
 //! sign of d − z reversed; this is Eq. 13 and 14.
 
-use super::{Adaptive, Binding, Combine, Constant, Encode, Family, Map, Page, Technique, Uniform};
+use super::{About, Constant, Description, Encode, Family, Technique};
 use crate::{
     capabilities::Capabilities,
     error::Unsupported,
-    filter::{Filter, Sampling, Values},
+    filter::{Filter, Values},
     parameter::{Field, Parameter, choice},
 };
 use std::f64::consts::PI;
@@ -86,7 +86,9 @@ impl Csm {
             Storage::Float16 => (F::Rgba16Float, 11),
             Storage::Float32 => (F::Rgba32Float, 24),
         };
-        Values { format, layers: self.layers(), ranges: vec![[0.0, 1.0]; 4], bits }
+        // Coefficients from −1 to 1 are stored from 0 to 1.
+        let values = Values::new("basis", format, Encode::Texel("csm_encode"));
+        Values { layers: self.layers(), bits, zero_level: 0.5, ..values }
     }
 
     /// Largest error of a stored coefficient, which lies in \[−1,1].
@@ -143,11 +145,32 @@ impl Csm {
             Lift::Scale | Lift::None => 0.0,
         }
     }
+
+    /// Factor of the sum of the series.
+    fn scale(&self) -> f32 {
+        if matches!(self.lift, Lift::Scale | Lift::Both) { 2.0 } else { 1.0 }
+    }
+
+    /// Overshoot of the series beyond its ramps, and the rounding of every term.
+    fn ringing(&self) -> f32 {
+        // With very few terms the ramps meet, and the farthest lit receivers are on the second one.
+        let start = f64::from(self.ramp());
+        let end = (1.0 - start).max(f64::from(self.span() + self.lift_offset()));
+        let overshoot = (0..=1024)
+            .map(|i| start + (end - start) * f64::from(i) / 1024.0)
+            .map(|t| (reference::series(self, 0.0, t) - 1.0).abs())
+            .fold(0.0, f64::max);
+        let quantisation: f64 = (1..=self.terms)
+            .zip(self.attenuations())
+            .map(|(k, a)| 2.0 * a / (PI * (2.0 * f64::from(k) - 1.0)) * self.rounding() * std::f64::consts::SQRT_2)
+            .sum();
+        ((overshoot + quantisation) * f64::from(self.scale())) as f32
+    }
 }
 
 impl Technique for Csm {
-    fn page(&self) -> Page {
-        Page {
+    fn about(&self) -> About {
+        About {
             name: "csm",
             title: "Convolution shadow map",
             family: Family::Basis,
@@ -174,61 +197,28 @@ impl Technique for Csm {
         ];
         own.into_iter().chain(self.filter.parameters()).collect()
     }
-    fn maps(&self, _: &Capabilities) -> Result<Vec<Map>, Unsupported> {
-        let encode = Encode::Texel("csm_encode");
-        Ok(vec![self.filter.map("basis", encode, self.values(), Combine::Mean)])
-    }
-    fn bindings(&self) -> Vec<Binding> {
-        vec![Binding::Map(0), Binding::Sampler]
-    }
-    fn wgsl(&self) -> &'static str {
-        include_str!("csm.wgsl")
-    }
-    fn uniforms(&self) -> Vec<Uniform> {
-        let scale = if matches!(self.lift, Lift::Scale | Lift::Both) { 2.0 } else { 1.0 };
-        vec![("span", self.span()), ("offset", self.lift_offset()), ("scale", scale)]
-    }
-    fn blur(&self) -> Option<Adaptive> {
-        self.filter.adapted()
-    }
-    fn constants(&self) -> Vec<Constant> {
+    fn describe(&self, device: &Capabilities) -> Result<Description, Unsupported> {
+        let wgsl = include_str!("csm.wgsl");
+        let mut described = Description::filtered(self.about(), wgsl, &self.filter, self.values(), device);
         let mut weights: Vec<f32> = self
             .attenuations()
             .enumerate()
             .map(|(k, a)| (2.0 * a / (PI * (2.0 * k as f64 + 1.0))) as f32)
             .collect();
         weights.resize(2 * self.layers() as usize, 0.0);
-        let own = [Constant::Count("csm_terms", self.terms), Constant::Array("csm_weights", weights)];
-        own.into_iter().chain(self.filter.constants(&self.values(), Combine::Mean)).collect()
+        described
+            .constants
+            .extend([Constant::Count("csm_terms", self.terms), Constant::Array("csm_weights", weights)]);
+        described.settings =
+            vec![("span", self.span()), ("offset", self.lift_offset()), ("scale", self.scale())];
+        described.ringing = self.ringing();
+        described.fetches *= self.layers();
+        Ok(described)
     }
-    fn parts(&self, device: &Capabilities) -> Vec<&'static str> {
-        self.filter.parts(device, &self.values(), Combine::Mean)
+    fn variants(&self) -> Vec<&'static str> {
+        [&Filter::VARIANTS[..], &["terms=4", "terms=1,lift=both", "storage=float16", "storage=float32"]].concat()
     }
-    fn reach_texels(&self) -> f32 {
-        self.filter.reach_texels()
-    }
-    /// Overshoot of the series beyond its ramps, and the rounding of every term.
-    fn ripple(&self) -> f32 {
-        // With very few terms the ramps meet, and the farthest lit receivers are on the second one.
-        let start = f64::from(self.ramp());
-        let end = (1.0 - start).max(f64::from(self.span() + self.lift_offset()));
-        let ringing = (0..=1024)
-            .map(|i| start + (end - start) * f64::from(i) / 1024.0)
-            .map(|t| (reference::series(self, 0.0, t) - 1.0).abs())
-            .fold(0.0, f64::max);
-        let quantisation: f64 = (1..=self.terms)
-            .zip(self.attenuations())
-            .map(|(k, a)| 2.0 * a / (PI * (2.0 * f64::from(k) - 1.0)) * self.rounding() * std::f64::consts::SQRT_2)
-            .sum();
-        ((ringing + quantisation) * if matches!(self.lift, Lift::Scale | Lift::Both) { 2.0 } else { 1.0 }) as f32
-    }
-    fn stored_zero(&self, _: usize) -> f32 {
-        if self.filter.sampling == Sampling::Summed { 0.0 } else { 0.5 }
-    }
-    fn lookups(&self) -> u32 {
-        self.layers() * self.filter.lookups(&self.values())
-    }
-    fn boxed(&self) -> Box<dyn Technique> {
+    fn clone_box(&self) -> Box<dyn Technique> {
         Box::new(*self)
     }
 }

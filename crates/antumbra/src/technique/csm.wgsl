@@ -47,8 +47,8 @@ fn csm_basis(z: f32, layer: u32) -> vec4f {
 }
 
 /// Terms 2·layer + 1 and 2·layer + 2 of the basis of Eq. 14, moved from [−1,1] to [0,1].
-fn csm_encode(depth: f32, layer: u32, span: f32, offset: f32, scale: f32) -> vec4f {
-    return 0.5 + 0.5 * csm_basis(span * depth, layer);
+fn csm_encode(depth: f32, layer: u32) -> vec4f {
+    return 0.5 + 0.5 * csm_basis(csm_span() * depth, layer);
 }
 
 /// What the terms of one layer add to the sum of Eq. 13, from the basis at the receiver's depth and
@@ -59,12 +59,12 @@ fn csm_layer(basis: vec4f, filtered: vec4f, layer: u32) -> f32 {
         + csm_weights[2u * layer + 1u] * (basis.w * b.z - basis.z * b.w);
 }
 
-/// Eq. 13 over all layers: one filtered lookup each. `span` shrinks depths so that the series'
-/// second step, one half period away, stays out of reach; `offset`, in shrunk depths, lifts lit
-/// surfaces from one half to one; `scale` steepens the step instead, or too.
-fn csm_visibility(map: LookupMap, map_sampler: sampler, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f, span: f32, offset: f32, scale: f32) -> f32 {
+/// Eq. 13 over all layers: one filtered lookup each. csm_span shrinks depths so that the series'
+/// second step, one half period away, stays out of reach; csm_offset, in shrunk depths, lifts lit
+/// surfaces from one half to one; csm_scale steepens the step instead, or too.
+fn csm_visibility(map: LookupMap, map_sampler: sampler, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f) -> f32 {
     let layers = (csm_terms + 1u) / 2u;
-    let d = span * depth - offset;
+    let d = csm_span() * depth - csm_offset();
     let one = csm_half_turns(d);
     let two = csm_add(one, one);
     let four = csm_add(two, two);
@@ -75,5 +75,5 @@ fn csm_visibility(map: LookupMap, map_sampler: sampler, uv: vec2f, view: u32, de
         sum += csm_layer(basis, filtered, layer);
         basis = vec4f(csm_add(basis.xy, four), csm_add(basis.zw, four));
     }
-    return clamp(scale * sum, 0.0, 1.0);
+    return clamp(csm_scale() * sum, 0.0, 1.0);
 }

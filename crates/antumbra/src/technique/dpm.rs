@@ -10,7 +10,7 @@
 //! Story 2015, "Hybrid Ray-Traced Shadows" (Game Developers Conference); the k-buffer of Bavoil et al.
 //! 2007.
 
-use super::{BiasTerms, Binding, Caster, Class, Constant, DepthSpace, Family, Map, Ranked, Page, Technique};
+use super::{About, Caster, Class, Constant, Description, Family, Technique};
 use crate::{
     capabilities::Capabilities,
     error::Unsupported,
@@ -36,9 +36,14 @@ impl Default for Dpm {
     }
 }
 
+const CLASSES: [Class; 2] = [
+    Class { name: "shadowed by a triangle of its texel", colour: [90, 110, 160] },
+    Class { name: "uncertain", colour: [224, 32, 32] },
+];
+
 impl Technique for Dpm {
-    fn page(&self) -> Page {
-        Page {
+    fn about(&self) -> About {
+        About {
             name: "dpm",
             title: "Deep primitive map",
             family: Family::Geometry,
@@ -61,50 +66,25 @@ impl Technique for Dpm {
             ),
         ]
     }
-    fn maps(&self, _: &Capabilities) -> Result<Vec<Map>, Unsupported> {
-        Ok(Vec::new())
+    fn describe(&self, _: &Capabilities) -> Result<Description, Unsupported> {
+        let caster = Caster::Ranked { keeps: self.keeps };
+        Ok(Description {
+            constants: vec![
+                Constant::Count("dpm_keeps", self.keeps),
+                Constant::Count("dpm_samples", self.samples),
+            ],
+            classes: &CLASSES,
+            // Centres are asked a texel farther out.
+            filter_radius_texels: 1.5,
+            // Those of a full texel, with its centre.
+            fetches: 4 * self.keeps + 1,
+            ..Description::triangles(self.about(), include_str!("dpm.wgsl"), caster)
+        })
     }
-    fn caster(&self) -> Caster {
-        Caster::Ranked { keeps: self.keeps }
+    fn variants(&self) -> Vec<&'static str> {
+        vec!["keeps=1,samples=2", "keeps=9"]
     }
-    fn bindings(&self) -> Vec<Binding> {
-        vec![Binding::Depth, Binding::Ranked(Ranked::Keys), Binding::Ranked(Ranked::Corners)]
-    }
-    fn wgsl(&self) -> &'static str {
-        include_str!("dpm.wgsl")
-    }
-    fn constants(&self) -> Vec<Constant> {
-        vec![
-            Constant::Count("dpm_keeps", self.keeps),
-            Constant::Count("dpm_samples", self.samples),
-        ]
-    }
-    fn bias(&self) -> BiasTerms {
-        BiasTerms::RAYS
-    }
-    /// Distance of 32-bit floats below 1, where a spot's projected depths crowd.
-    fn depth_step(&self) -> f32 {
-        f32::EPSILON / 2.0
-    }
-    fn depth_space(&self) -> DepthSpace {
-        DepthSpace::Raster
-    }
-    /// Centres are asked a texel farther out.
-    fn reach_texels(&self) -> f32 {
-        1.5
-    }
-    /// Of a full texel, with its centre.
-    fn lookups(&self) -> u32 {
-        4 * self.keeps + 1
-    }
-    fn classes(&self) -> &'static [Class] {
-        const CLASSES: [Class; 2] = [
-            Class { name: "shadowed by a triangle of its texel", colour: [90, 110, 160] },
-            Class { name: "uncertain", colour: [224, 32, 32] },
-        ];
-        &CLASSES
-    }
-    fn boxed(&self) -> Box<dyn Technique> {
+    fn clone_box(&self) -> Box<dyn Technique> {
         Box::new(*self)
     }
 }

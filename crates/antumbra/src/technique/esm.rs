@@ -14,12 +14,11 @@
 //! Annen, Mertens, Seidel, Flerackers, Kautz 2008, "Exponential shadow maps". Logarithms: Salvi
 //! 2008, "Rendering filtered shadows with exponential shadow maps".
 
-use super::{Adaptive, Binding, Class, Combine, Constant, Encode, Family, Map, Page, Technique, Uniform};
+use super::{About, Binding, Class, Combine, Constant, Description, Encode, Family, Map, Pass, Technique};
 use crate::{
     capabilities::Capabilities,
     error::Unsupported,
     filter::{Filter, Sampling, Values},
-    kernel::Width,
     parameter::{Field, Parameter, choice},
 };
 use wgpu::TextureFormat;
@@ -125,40 +124,57 @@ impl Esm {
         self.storage != Storage::Powers && self.filter.sampling != Sampling::Summed
     }
 
-    fn combine(&self) -> Combine {
-        if self.is_logarithmic() { Combine::LogMean(self.steepness()) } else { Combine::Mean }
-    }
-
-    fn values(&self, device: Option<&Capabilities>) -> Values {
-        let renders = device.is_none_or(|d| d.renders(TextureFormat::R16Unorm));
-        let format = match self.storage {
-            Storage::LogHalf => TextureFormat::R16Float,
-            Storage::Log16 if renders => TextureFormat::R16Unorm,
-            _ => TextureFormat::R32Float,
+    fn values(&self, device: &Capabilities) -> Values {
+        use TextureFormat::{R16Float, R16Unorm, R32Float};
+        let (format, note) = match self.storage {
+            Storage::Powers | Storage::Log32 => (R32Float, None),
+            Storage::LogHalf => (R16Float, None),
+            Storage::Log16 => device.norm16("depth", R16Unorm, R32Float),
+        };
+        let (name, combine) = match self.is_logarithmic() {
+            true => ("depth", Combine::LogMean(self.steepness())),
+            false => ("exponentials", Combine::Mean),
         };
         // Powers in shares of the greatest: a whole number must not overflow at the far plane.
-        Values { format, layers: 1, ranges: vec![[0.0, self.steepness().exp()]], bits: SUMMED_BITS }
+        let ranges = vec![[0.0, self.steepness().exp()]];
+        let values = Values::new(name, format, Encode::Texel("esm_encode"));
+        Values { combine, ranges, bits: SUMMED_BITS, note, ..values }
+    }
+
+    /// Whether failing pixels are filtered from four texels of the map.
+    fn filters_four(&self) -> bool {
+        self.custom == Custom::Four && self.filter.sampling != Sampling::Summed
+    }
+
+    fn wgsl(&self) -> &'static str {
+        macro_rules! files {
+            ($($file:literal),*) => { concat!(include_str!("esm.wgsl"), $(include_str!($file)),*) };
+        }
+        match (self.classifier, self.filters_four()) {
+            (Classifier::Threshold, true) => files!("esm/custom.wgsl", "esm/threshold.wgsl"),
+            // A clamp gives what failing pixels get without custom filtering.
+            (Classifier::None, _) | (Classifier::Threshold, false) => files!("esm/clamped.wgsl", "esm/threshold.wgsl"),
+            (Classifier::ZMax, true) => files!("esm/custom.wgsl", "esm/zmax.wgsl"),
+            (Classifier::ZMax, false) => files!("esm/clamped.wgsl", "esm/zmax.wgsl"),
+        }
     }
 
     /// The second map of Z-Max: depth, widened like the first.
     fn farthest(&self) -> Map {
         let mut passes = self.filter.passes(Combine::Greatest);
         if self.filter.sampling == Sampling::Summed {
-            passes.push(super::Pass::Mips(Combine::Greatest));
+            passes.push(Pass::Mips(Combine::Greatest));
         }
-        Map {
-            name: "farthest depth",
-            format: TextureFormat::R32Float,
-            layers: 1,
-            encode: Encode::Texel("esm_depth"),
-            passes,
-        }
+        let map = Map::new("farthest depth", TextureFormat::R32Float, Encode::Texel("esm_depth"));
+        Map { passes, ..map }
     }
 }
 
+const FAILED: [Class; 1] = [Class { name: "assumption violated", colour: [224, 32, 32] }];
+
 impl Technique for Esm {
-    fn page(&self) -> Page {
-        Page {
+    fn about(&self) -> About {
+        About {
             name: "esm",
             title: "Exponential shadow map",
             family: Family::Basis,
@@ -202,70 +218,39 @@ impl Technique for Esm {
         ];
         own.into_iter().chain(self.filter.parameters()).collect()
     }
-    fn maps(&self, device: &Capabilities) -> Result<Vec<Map>, Unsupported> {
-        let name = if self.is_logarithmic() { "depth" } else { "exponentials" };
-        let encode = Encode::Texel("esm_encode");
-        let first = self.filter.map(name, encode, self.values(Some(device)), self.combine());
-        let second = (self.classifier == Classifier::ZMax).then(|| self.farthest());
-        Ok(std::iter::once(first).chain(second).collect())
-    }
-    fn fallbacks(&self, device: &Capabilities) -> Vec<String> {
-        let summed = self.filter.sampling == Sampling::Summed;
-        let format = (self.storage == Storage::Log16).then_some(TextureFormat::R16Unorm);
-        let mut told: Vec<String> = self.filter.told_of_norm16(device, "depth", format).into_iter().collect();
-        if summed && self.classifier != Classifier::None && self.custom == Custom::Four {
-            told.push("no custom filtering: a summed-area table has no texels to clamp one by one".into());
+    fn describe(&self, device: &Capabilities) -> Result<Description, Unsupported> {
+        let values = self.values(device);
+        let mut described = Description::filtered(self.about(), self.wgsl(), &self.filter, values, device);
+        described.constants.push(Constant::Count("esm_logarithms", u32::from(self.is_logarithmic())));
+        described.settings =
+            vec![("c", self.steepness()), ("epsilon", self.epsilon), ("offset", self.offset)];
+        if self.classifier != Classifier::None {
+            described.classes = &FAILED;
+            if self.custom == Custom::Four && !self.filters_four() {
+                let note = "no custom filtering: a summed-area table has no texels to clamp one by one";
+                described.notes.push(note.into());
+            }
         }
-        told
-    }
-    fn bindings(&self) -> Vec<Binding> {
-        let second = (self.classifier == Classifier::ZMax).then_some(Binding::Map(1));
-        [Binding::Map(0), Binding::Sampler].into_iter().chain(second).collect()
-    }
-    fn wgsl(&self) -> &'static str {
-        macro_rules! files {
-            ($($file:literal),*) => { concat!(include_str!("esm.wgsl"), $(include_str!($file)),*) };
+        if self.classifier == Classifier::ZMax {
+            described.maps.push(self.farthest());
+            described.bindings.push(Binding::Map(1));
+            described.widths = vec![("kernel", self.filter.width())];
+            // Where no pixel fails: custom filtering takes four more.
+            described.fetches += 4;
         }
-        let four = self.custom == Custom::Four && self.filter.sampling != Sampling::Summed;
-        match (self.classifier, four) {
-            (Classifier::Threshold, true) => files!("esm/custom.wgsl", "esm/threshold.wgsl"),
-            // A clamp gives what failing pixels get without custom filtering.
-            (Classifier::None, _) | (Classifier::Threshold, false) => files!("esm/clamped.wgsl", "esm/threshold.wgsl"),
-            (Classifier::ZMax, true) => files!("esm/custom.wgsl", "esm/zmax.wgsl"),
-            (Classifier::ZMax, false) => files!("esm/clamped.wgsl", "esm/zmax.wgsl"),
-        }
+        Ok(described)
     }
-    fn uniforms(&self) -> Vec<Uniform> {
-        vec![("c", self.steepness()), ("epsilon", self.epsilon), ("offset", self.offset)]
+    fn variants(&self) -> Vec<&'static str> {
+        [&Filter::VARIANTS[..], &[
+            "classifier=none",
+            "classifier=zmax,custom=none",
+            "storage=log32,classifier=zmax",
+            "storage=log32",
+            "storage=log_half",
+            "storage=log16",
+        ]].concat()
     }
-    fn widths(&self) -> Vec<(&'static str, Width)> {
-        let kernel = (self.classifier == Classifier::ZMax).then(|| ("kernel", self.filter.width()));
-        kernel.into_iter().collect()
-    }
-    fn blur(&self) -> Option<Adaptive> {
-        self.filter.adapted()
-    }
-    fn constants(&self) -> Vec<Constant> {
-        let own = Constant::Count("esm_logarithms", u32::from(self.is_logarithmic()));
-        let filter = self.filter.constants(&self.values(None), self.combine());
-        std::iter::once(own).chain(filter).collect()
-    }
-    fn parts(&self, device: &Capabilities) -> Vec<&'static str> {
-        self.filter.parts(device, &self.values(Some(device)), self.combine())
-    }
-    fn classes(&self) -> &'static [Class] {
-        const FAILED: [Class; 1] = [Class { name: "assumption violated", colour: [224, 32, 32] }];
-        if self.classifier == Classifier::None { &[] } else { &FAILED }
-    }
-    fn reach_texels(&self) -> f32 {
-        self.filter.reach_texels()
-    }
-    /// Where no pixel fails: custom filtering takes four more.
-    fn lookups(&self) -> u32 {
-        let classifying = if self.classifier == Classifier::ZMax { 4 } else { 0 };
-        self.filter.lookups(&self.values(None)) + classifying
-    }
-    fn boxed(&self) -> Box<dyn Technique> {
+    fn clone_box(&self) -> Box<dyn Technique> {
         Box::new(*self)
     }
 }

@@ -17,7 +17,7 @@
 //!
 //! Lauritzen & McCool 2008, "Layered variance shadow maps", section 5.
 
-use super::{Adaptive, Binding, Combine, Constant, Encode, Family, Map, Page, Technique, Uniform};
+use super::{About, Constant, Description, Encode, Family, Technique};
 use crate::{
     bound,
     capabilities::Capabilities,
@@ -147,7 +147,8 @@ impl Evsm {
             Moments::Two => positive.to_vec(),
             Moments::Four => [positive, negative].concat(),
         };
-        Values { format: self.texels(), layers: 1, ranges, bits: 48 }
+        let values = Values::new("moments", self.texels(), Encode::Texel("evsm_encode"));
+        Values { ranges, bits: 48, ..values }
     }
 
     fn texels(&self) -> wgpu::TextureFormat {
@@ -162,8 +163,8 @@ impl Evsm {
 }
 
 impl Technique for Evsm {
-    fn page(&self) -> Page {
-        Page {
+    fn about(&self) -> About {
+        About {
             name: "evsm",
             title: "Exponential variance shadow map",
             family: Family::Basis,
@@ -198,56 +199,35 @@ impl Technique for Evsm {
         ];
         own.into_iter().chain(self.filter.parameters()).collect()
     }
-    fn maps(&self, _: &Capabilities) -> Result<Vec<Map>, Unsupported> {
-        let encode = Encode::Texel("evsm_encode");
-        Ok(vec![self.filter.map("moments", encode, self.values(), Combine::Mean)])
-    }
-    fn bindings(&self) -> Vec<Binding> {
-        vec![Binding::Map(0), Binding::Sampler]
-    }
-    fn wgsl(&self) -> &'static str {
-        include_str!("evsm.wgsl")
-    }
-    fn uniforms(&self) -> Vec<Uniform> {
-        let [positive, negative] = self.exponents();
-        vec![
-            ("positive", positive),
-            ("negative", negative),
-            ("least_variance", self.least_variance),
-            ("rounding", self.rounding()[0]),
-            ("denormal", self.rounding()[1]),
-            ("slope", self.slope),
-            ("reduction", self.reduction),
-        ]
-    }
-    fn blur(&self) -> Option<Adaptive> {
-        self.filter.adapted()
-    }
-    fn constants(&self) -> Vec<Constant> {
+    fn describe(&self, device: &Capabilities) -> Result<Description, Unsupported> {
+        let wgsl = include_str!("evsm.wgsl");
+        let mut described = Description::filtered(self.about(), wgsl, &self.filter, self.values(), device);
         let warps = match self.moments {
             Moments::Two => 1,
             Moments::Four => 2,
         };
-        let own = Constant::Count("evsm_warps", warps);
-        std::iter::once(own).chain(self.filter.constants(&self.values(), Combine::Mean)).collect()
+        described.constants.push(Constant::Count("evsm_warps", warps));
+        let ([positive, negative], [rounding, denormal]) = (self.exponents(), self.rounding());
+        described.settings = vec![
+            ("positive", positive),
+            ("negative", negative),
+            ("least_variance", self.least_variance),
+            ("rounding", rounding),
+            ("denormal", denormal),
+            ("slope", self.slope),
+            ("reduction", self.reduction),
+        ];
+        // What the least variance lets through a tenth of the depth range behind a blocker.
+        let least = (4.0 * positive * positive * self.least_variance).max(rounding);
+        let behind = (0.2 * positive).exp() - 1.0;
+        let bound = least / (least + behind * behind);
+        described.ringing = (bound - self.reduction).max(0.0) / (1.0 - self.reduction);
+        Ok(described)
     }
-    fn parts(&self, device: &Capabilities) -> Vec<&'static str> {
-        self.filter.parts(device, &self.values(), Combine::Mean)
+    fn variants(&self) -> Vec<&'static str> {
+        [&Filter::VARIANTS[..], &["moments=two", "format=float16"]].concat()
     }
-    fn reach_texels(&self) -> f32 {
-        self.filter.reach_texels()
-    }
-    /// What the least variance lets through a tenth of the depth range behind a blocker.
-    fn ripple(&self) -> f32 {
-        let c = self.exponents()[0];
-        let least = (4.0 * c * c * self.least_variance).max(self.rounding()[0]);
-        let behind = (0.2 * c).exp() - 1.0;
-        (least / (least + behind * behind) - self.reduction).max(0.0) / (1.0 - self.reduction)
-    }
-    fn lookups(&self) -> u32 {
-        self.filter.lookups(&self.values())
-    }
-    fn boxed(&self) -> Box<dyn Technique> {
+    fn clone_box(&self) -> Box<dyn Technique> {
         Box::new(*self)
     }
 }

@@ -10,7 +10,7 @@
 //!
 //! What Lecocq et al. 2014, "Sub-Pixel Shadow Mapping", §3.1, call intractable.
 
-use super::{BiasTerms, Binding, Caster, DepthSpace, Family, List, Map, Page, Technique};
+use super::{About, Caster, Description, Family, Technique};
 use crate::{
     capabilities::Capabilities, error::Unsupported, map::Capacity, parameter::Parameter,
 };
@@ -22,8 +22,8 @@ use crate::{
 pub struct Exact;
 
 impl Technique for Exact {
-    fn page(&self) -> Page {
-        Page {
+    fn about(&self) -> About {
+        About {
             name: "exact",
             title: "Lists of all triangles",
             family: Family::Geometry,
@@ -33,36 +33,14 @@ impl Technique for Exact {
     fn parameters(&mut self) -> Vec<Parameter<'_>> {
         Vec::new()
     }
-    fn maps(&self, _: &Capabilities) -> Result<Vec<Map>, Unsupported> {
-        Ok(Vec::new())
+    fn describe(&self, _: &Capabilities) -> Result<Description, Unsupported> {
+        Ok(Description {
+            // Those of a list that fills the default capacity.
+            fetches: 2 + 4 * Capacity::default().triangles_per_texel,
+            ..Description::triangles(self.about(), include_str!("exact.wgsl"), Caster::Lists)
+        })
     }
-    fn caster(&self) -> Caster {
-        Caster::Lists
-    }
-    fn bindings(&self) -> Vec<Binding> {
-        [List::Ranges, List::Numbers, List::Corners].map(Binding::List).to_vec()
-    }
-    fn wgsl(&self) -> &'static str {
-        include_str!("exact.wgsl")
-    }
-    fn bias(&self) -> BiasTerms {
-        BiasTerms::RAYS
-    }
-    /// Distance of 32-bit floats below 1, where a spot's projected depths crowd.
-    fn depth_step(&self) -> f32 {
-        f32::EPSILON / 2.0
-    }
-    fn depth_space(&self) -> DepthSpace {
-        DepthSpace::Raster
-    }
-    fn reach_texels(&self) -> f32 {
-        0.5
-    }
-    /// Of a list that fills the default capacity.
-    fn lookups(&self) -> u32 {
-        2 + 4 * Capacity::default().triangles_per_texel
-    }
-    fn boxed(&self) -> Box<dyn Technique> {
+    fn clone_box(&self) -> Box<dyn Technique> {
         Box::new(*self)
     }
 }

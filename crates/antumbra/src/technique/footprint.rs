@@ -8,7 +8,7 @@
 //! Reeves, Salesin, Cook 1987, "Rendering antialiased shadows with depth maps"; Brabec & Seidel 2001,
 //! §6, ask for it.
 
-use super::{BiasTerms, Binding, Constant, DepthSpace, Family, Map, Page, Technique};
+use super::{About, Constant, Description, Family, Technique};
 use crate::{
     capabilities::Capabilities,
     error::Unsupported,
@@ -34,8 +34,8 @@ impl Default for Footprint {
 }
 
 impl Technique for Footprint {
-    fn page(&self) -> Page {
-        Page {
+    fn about(&self) -> About {
+        About {
             name: "footprint",
             title: "Footprint-sized percentage-closer filtering",
             family: Family::Comparison,
@@ -48,40 +48,17 @@ impl Technique for Footprint {
             self.precision.parameter(),
         ]
     }
-    fn maps(&self, _: &Capabilities) -> Result<Vec<Map>, Unsupported> {
-        Ok(Vec::new())
+    fn describe(&self, _: &Capabilities) -> Result<Description, Unsupported> {
+        let (wgsl, linear) = (include_str!("footprint.wgsl"), wgpu::FilterMode::Linear);
+        // Radius and fetches of a footprint below a texel. Wider ones repeat the border of the map.
+        let mut described = Description::comparison(self.about(), wgsl, linear, self.precision);
+        described.constants.push(Constant::Count("footprint_budget", self.budget));
+        Ok(described)
     }
-    fn bindings(&self) -> Vec<Binding> {
-        vec![Binding::Depth, Binding::Compare(wgpu::FilterMode::Linear)]
+    fn variants(&self) -> Vec<&'static str> {
+        Precision::VARIANTS.to_vec()
     }
-    fn wgsl(&self) -> &'static str {
-        include_str!("footprint.wgsl")
-    }
-    fn constants(&self) -> Vec<Constant> {
-        let mut constants = vec![Constant::Count("footprint_budget", self.budget)];
-        constants.extend(self.precision.constants());
-        constants
-    }
-    fn parts(&self, _: &Capabilities) -> Vec<&'static str> {
-        vec![self.precision.part()]
-    }
-    fn bias(&self) -> BiasTerms {
-        BiasTerms::FOURS
-    }
-    fn depth_step(&self) -> f32 {
-        self.precision.step()
-    }
-    fn depth_space(&self) -> DepthSpace {
-        DepthSpace::Raster
-    }
-    /// Of a footprint below a texel. Wider ones repeat the border of the map.
-    fn reach_texels(&self) -> f32 {
-        1.0
-    }
-    fn lookups(&self) -> u32 {
-        1
-    }
-    fn boxed(&self) -> Box<dyn Technique> {
+    fn clone_box(&self) -> Box<dyn Technique> {
         Box::new(*self)
     }
 }

@@ -6,7 +6,7 @@
 //!
 //! Williams 1978, "Casting curved shadows on curved surfaces".
 
-use super::{BiasTerms, Binding, Constant, DepthSpace, Family, Map, Page, Technique};
+use super::{About, Description, Family, Technique};
 use crate::{
     capabilities::Capabilities, error::Unsupported, parameter::Parameter, precision::Precision,
 };
@@ -20,43 +20,20 @@ pub struct Hard {
 }
 
 impl Technique for Hard {
-    fn page(&self) -> Page {
-        Page { name: "hard", title: "Standard shadow map", family: Family::Comparison, paper: "Williams 1978" }
+    fn about(&self) -> About {
+        About { name: "hard", title: "Standard shadow map", family: Family::Comparison, paper: "Williams 1978" }
     }
     fn parameters(&mut self) -> Vec<Parameter<'_>> {
         vec![self.precision.parameter()]
     }
-    fn maps(&self, _: &Capabilities) -> Result<Vec<Map>, Unsupported> {
-        Ok(Vec::new())
+    fn describe(&self, _: &Capabilities) -> Result<Description, Unsupported> {
+        let wgsl = include_str!("hard.wgsl");
+        Ok(Description::comparison(self.about(), wgsl, wgpu::FilterMode::Nearest, self.precision))
     }
-    fn bindings(&self) -> Vec<Binding> {
-        vec![Binding::Depth, Binding::Compare(wgpu::FilterMode::Nearest)]
+    fn variants(&self) -> Vec<&'static str> {
+        Precision::VARIANTS.to_vec()
     }
-    fn wgsl(&self) -> &'static str {
-        include_str!("hard.wgsl")
-    }
-    fn constants(&self) -> Vec<Constant> {
-        self.precision.constants()
-    }
-    fn parts(&self, _: &Capabilities) -> Vec<&'static str> {
-        vec![self.precision.part()]
-    }
-    fn bias(&self) -> BiasTerms {
-        BiasTerms::TEXELS
-    }
-    fn depth_step(&self) -> f32 {
-        self.precision.step()
-    }
-    fn depth_space(&self) -> DepthSpace {
-        DepthSpace::Raster
-    }
-    fn reach_texels(&self) -> f32 {
-        0.5
-    }
-    fn lookups(&self) -> u32 {
-        1
-    }
-    fn boxed(&self) -> Box<dyn Technique> {
+    fn clone_box(&self) -> Box<dyn Technique> {
         Box::new(*self)
     }
 }

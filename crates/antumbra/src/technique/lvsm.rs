@@ -15,7 +15,7 @@
 //!
 //! Lauritzen & McCool 2008, "Layered variance shadow maps", section 4.
 
-use super::{Adaptive, Binding, Combine, Constant, Encode, Family, Map, Page, Technique, Uniform};
+use super::{About, Constant, Description, Encode, Family, Technique};
 use crate::{
     bound,
     capabilities::Capabilities,
@@ -77,13 +77,25 @@ const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
 
 impl Lvsm {
     fn values(&self) -> Values {
-        Values { format: FORMAT, layers: self.intervals.div_ceil(2), ranges: vec![[0.0, 1.0]; 4], bits: 24 }
+        let values = Values::new("moments", FORMAT, Encode::Texel("lvsm_encode"));
+        Values { layers: self.intervals.div_ceil(2), ..values }
+    }
+
+    /// With one interval alone: what the least variance lets through at its start, where a caster is
+    /// clamped to the overlap's beginning.
+    fn leak(&self) -> f32 {
+        let apart = self.overlap / self.intervals as f32;
+        let bound = self.least_variance / (self.least_variance + apart * apart).max(1e-12);
+        match self.choose {
+            Choose::Least => 0.0,
+            Choose::Receiver | Choose::Blend => (bound - self.reduction).max(0.0) / (1.0 - self.reduction),
+        }
     }
 }
 
 impl Technique for Lvsm {
-    fn page(&self) -> Page {
-        Page {
+    fn about(&self) -> About {
+        About {
             name: "lvsm",
             title: "Layered variance shadow map",
             family: Family::Basis,
@@ -111,61 +123,37 @@ impl Technique for Lvsm {
         ];
         own.into_iter().chain(self.filter.parameters()).collect()
     }
-    fn maps(&self, _: &Capabilities) -> Result<Vec<Map>, Unsupported> {
-        let encode = Encode::Texel("lvsm_encode");
-        Ok(vec![self.filter.map("moments", encode, self.values(), Combine::Mean)])
-    }
-    fn bindings(&self) -> Vec<Binding> {
-        vec![Binding::Map(0), Binding::Sampler]
-    }
-    fn wgsl(&self) -> &'static str {
-        match self.choose {
+    fn describe(&self, device: &Capabilities) -> Result<Description, Unsupported> {
+        let wgsl = match self.choose {
             Choose::Least => concat!(include_str!("lvsm.wgsl"), include_str!("lvsm/least.wgsl")),
-            Choose::Receiver => concat!(include_str!("lvsm.wgsl"), include_str!("lvsm/pick.wgsl"), include_str!("lvsm/receiver.wgsl")),
-            Choose::Blend => concat!(include_str!("lvsm.wgsl"), include_str!("lvsm/pick.wgsl"), include_str!("lvsm/blend.wgsl")),
-        }
-    }
-    fn uniforms(&self) -> Vec<Uniform> {
-        vec![
+            Choose::Receiver => {
+                concat!(include_str!("lvsm.wgsl"), include_str!("lvsm/pick.wgsl"), include_str!("lvsm/receiver.wgsl"))
+            }
+            Choose::Blend => {
+                concat!(include_str!("lvsm.wgsl"), include_str!("lvsm/pick.wgsl"), include_str!("lvsm/blend.wgsl"))
+            }
+        };
+        let mut described = Description::filtered(self.about(), wgsl, &self.filter, self.values(), device);
+        described.constants.push(Constant::Count("lvsm_intervals", self.intervals));
+        described.settings = vec![
             ("overlap", self.overlap),
             ("least_variance", self.least_variance),
             ("slope", self.slope),
             ("reduction", self.reduction),
-        ]
-    }
-    fn blur(&self) -> Option<Adaptive> {
-        self.filter.adapted()
-    }
-    fn constants(&self) -> Vec<Constant> {
-        let own = Constant::Count("lvsm_intervals", self.intervals);
-        std::iter::once(own).chain(self.filter.constants(&self.values(), Combine::Mean)).collect()
-    }
-    fn parts(&self, device: &Capabilities) -> Vec<&'static str> {
-        self.filter.parts(device, &self.values(), Combine::Mean)
-    }
-    fn reach_texels(&self) -> f32 {
-        self.filter.reach_texels()
-    }
-    /// With one interval alone: what the least variance lets through at its start, where a caster is
-    /// clamped to the overlap's beginning.
-    fn ripple(&self) -> f32 {
-        let apart = self.overlap / self.intervals as f32;
-        let bound = self.least_variance / (self.least_variance + apart * apart).max(1e-12);
-        match self.choose {
-            Choose::Least => 0.0,
-            Choose::Receiver | Choose::Blend => (bound - self.reduction).max(0.0) / (1.0 - self.reduction),
-        }
-    }
-    /// Of a pixel in the last interval.
-    fn lookups(&self) -> u32 {
-        let boxes = match self.choose {
+        ];
+        described.ringing = self.leak();
+        // Those of a pixel in the last interval.
+        described.fetches *= match self.choose {
             Choose::Least => self.intervals.div_ceil(2),
             Choose::Receiver => 1,
             Choose::Blend => 2,
         };
-        boxes * self.filter.lookups(&self.values())
+        Ok(described)
     }
-    fn boxed(&self) -> Box<dyn Technique> {
+    fn variants(&self) -> Vec<&'static str> {
+        [&Filter::VARIANTS[..], &["intervals=7,overlap=0", "choose=receiver", "choose=blend"]].concat()
+    }
+    fn clone_box(&self) -> Box<dyn Technique> {
         Box::new(*self)
     }
 }

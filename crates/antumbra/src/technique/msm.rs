@@ -39,7 +39,7 @@
 //! Peters & Klein 2015, "Moment shadow mapping"; Peters, Münstermann, Wetzstein, Klein 2017,
 //! "Improved moment shadow maps", for the transform on \[−1,1].
 
-use super::{Adaptive, Binding, Combine, Constant, Encode, Family, Map, Page, Technique, Uniform};
+use super::{About, Constant, Description, Encode, Family, Technique};
 use crate::{
     bound,
     capabilities::Capabilities,
@@ -93,28 +93,35 @@ impl Msm {
         }
     }
 
-    fn values(&self, device: Option<&Capabilities>) -> Values {
-        let format = device.map_or(wgpu::TextureFormat::Rgba32Float, |d| self.texels(d));
+    fn values(&self, device: &Capabilities) -> Values {
+        use wgpu::TextureFormat::{Rgba16Unorm, Rgba32Float};
+        let (format, note) = match self.format {
+            Format::Unorm16 => device.norm16("moments", Rgba16Unorm, Rgba32Float),
+            Format::Float32 => (Rgba32Float, None),
+        };
         let (low, bits) = match self.format {
             Format::Unorm16 => (0.0, 16),
             Format::Float32 => (-1.0, 24),
         };
-        Values { format, layers: 1, ranges: vec![[low, 1.0]; 4], bits }
+        let values = Values::new("moments", format, Encode::Texel("msm_encode"));
+        Values { ranges: vec![[low, 1.0]; 4], bits, note, ..values }
     }
 
-    fn texels(&self, device: &Capabilities) -> wgpu::TextureFormat {
-        match self.format {
-            Format::Unorm16 if device.renders(wgpu::TextureFormat::Rgba16Unorm) => {
-                wgpu::TextureFormat::Rgba16Unorm
-            }
-            _ => wgpu::TextureFormat::Rgba32Float,
-        }
+    /// What the bias lets through a tenth of the depth range behind a blocker, and as much again for
+    /// rounding, which the bias is chosen to match.
+    fn leak(&self) -> f32 {
+        let leak = |i: i32| {
+            let z = f64::from(i) / 64.0;
+            reference::bound(z + 0.1, reference::moments(z), f64::from(self.bias_share()))
+        };
+        let most = (0..=57).map(leak).fold(0.0, f64::max);
+        (2.0 * most as f32 - self.reduction).max(0.0) / (1.0 - self.reduction)
     }
 }
 
 impl Technique for Msm {
-    fn page(&self) -> Page {
-        Page {
+    fn about(&self) -> About {
+        About {
             name: "msm",
             title: "Moment shadow map",
             family: Family::Basis,
@@ -139,50 +146,19 @@ impl Technique for Msm {
         ];
         own.into_iter().chain(self.filter.parameters()).collect()
     }
-    fn maps(&self, device: &Capabilities) -> Result<Vec<Map>, Unsupported> {
-        let encode = Encode::Texel("msm_encode");
-        Ok(vec![self.filter.map("moments", encode, self.values(Some(device)), Combine::Mean)])
+    fn describe(&self, device: &Capabilities) -> Result<Description, Unsupported> {
+        let (wgsl, values) = (include_str!("msm.wgsl"), self.values(device));
+        let mut described = Description::filtered(self.about(), wgsl, &self.filter, values, device);
+        let transformed = u32::from(self.format == Format::Unorm16);
+        described.constants.push(Constant::Count("msm_transformed", transformed));
+        described.settings = vec![("moment_bias", self.bias_share()), ("reduction", self.reduction)];
+        described.ringing = self.leak();
+        Ok(described)
     }
-    fn fallbacks(&self, device: &Capabilities) -> Vec<String> {
-        let format = (self.format == Format::Unorm16).then_some(wgpu::TextureFormat::Rgba16Unorm);
-        self.filter.told_of_norm16(device, "moments", format).into_iter().collect()
+    fn variants(&self) -> Vec<&'static str> {
+        [&Filter::VARIANTS[..], &["format=float32"]].concat()
     }
-    fn bindings(&self) -> Vec<Binding> {
-        vec![Binding::Map(0), Binding::Sampler]
-    }
-    fn wgsl(&self) -> &'static str {
-        include_str!("msm.wgsl")
-    }
-    fn uniforms(&self) -> Vec<Uniform> {
-        vec![("moment_bias", self.bias_share()), ("reduction", self.reduction)]
-    }
-    fn blur(&self) -> Option<Adaptive> {
-        self.filter.adapted()
-    }
-    fn constants(&self) -> Vec<Constant> {
-        let own = Constant::Count("msm_transformed", u32::from(self.format == Format::Unorm16));
-        std::iter::once(own).chain(self.filter.constants(&self.values(None), Combine::Mean)).collect()
-    }
-    fn parts(&self, device: &Capabilities) -> Vec<&'static str> {
-        self.filter.parts(device, &self.values(Some(device)), Combine::Mean)
-    }
-    fn reach_texels(&self) -> f32 {
-        self.filter.reach_texels()
-    }
-    /// What the bias lets through a tenth of the depth range behind a blocker, and as much again for
-    /// rounding, which the bias is chosen to match.
-    fn ripple(&self) -> f32 {
-        let leak = |i: i32| {
-            let z = f64::from(i) / 64.0;
-            reference::bound(z + 0.1, reference::moments(z), f64::from(self.bias_share()))
-        };
-        let most = (0..=57).map(leak).fold(0.0, f64::max);
-        (2.0 * most as f32 - self.reduction).max(0.0) / (1.0 - self.reduction)
-    }
-    fn lookups(&self) -> u32 {
-        self.filter.lookups(&self.values(None))
-    }
-    fn boxed(&self) -> Box<dyn Technique> {
+    fn clone_box(&self) -> Box<dyn Technique> {
         Box::new(*self)
     }
 }

@@ -25,7 +25,7 @@ fn msm_restore(t: vec4f) -> vec4f {
 }
 
 /// Moments of linear depth, as stored.
-fn msm_encode(depth: f32, layer: u32, moment_bias: f32, reduction: f32) -> vec4f {
+fn msm_encode(depth: f32, layer: u32) -> vec4f {
     let z = 2.0 * depth - 1.0;
     let square = z * z;
     let b = vec4f(z, square, square * z, square * square);
@@ -46,7 +46,8 @@ fn msm_share(x: f32, b: vec2f, l: f32, d: vec2f) -> f32 {
 /// Upper bound of the lit share, in [0,1], of filtered moments at a linear depth: what lies at or
 /// beyond it in the distribution of three depths that has these moments and the receiver's depth
 /// among the three [Peters & Klein 2015, section 3].
-fn msm_bound(depth: f32, moments: vec4f, moment_bias: f32, reduction: f32) -> f32 {
+fn msm_bound(depth: f32, moments: vec4f) -> f32 {
+    let moment_bias = msm_moment_bias();
     let x = 2.0 * depth - 1.0;
     let b = mix(moments, vec4f(0.0, 0.4, 0.0, 0.4), moment_bias);
     // H = L D Lᵀ. The bias alone has eigenvalues of at least a fifth, so no pivot is below its share.
@@ -73,14 +74,14 @@ fn msm_bound(depth: f32, moments: vec4f, moment_bias: f32, reduction: f32) -> f3
     } else if x <= far {
         lit += msm_share(far, b.xy, l, d);
     }
-    return chebyshev_reduce(min(lit, 1.0), reduction);
+    return chebyshev_reduce(min(lit, 1.0), msm_reduction());
 }
 
 /// One filtered lookup.
-fn msm_visibility(map: LookupMap, map_sampler: sampler, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f, moment_bias: f32, reduction: f32) -> f32 {
+fn msm_visibility(map: LookupMap, map_sampler: sampler, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f) -> f32 {
     var moments = lookup_filtered(map, map_sampler, uv, view, ddx, ddy);
     if msm_transformed == 1u {
         moments = msm_restore(moments);
     }
-    return msm_bound(depth, moments, moment_bias, reduction);
+    return msm_bound(depth, moments);
 }

@@ -22,7 +22,7 @@
 //!
 //! Brabec & Seidel 2001, "Hardware-accelerated rendering of antialiased shadows with shadow maps", §4.
 
-use super::{BiasTerms, Binding, Constant, Encode, Family, Map, Page, Technique};
+use super::{About, Constant, Description, Encode, Family, Technique};
 use crate::{
     capabilities::Capabilities,
     error::Unsupported,
@@ -69,8 +69,8 @@ impl Default for Packed {
 }
 
 impl Technique for Packed {
-    fn page(&self) -> Page {
-        Page {
+    fn about(&self) -> About {
+        About {
             name: "packed",
             title: "Packed percentage-closer filtering",
             family: Family::Comparison,
@@ -89,55 +89,24 @@ impl Technique for Packed {
             self.precision.parameter(),
         ]
     }
-    fn maps(&self, device: &Capabilities) -> Result<Vec<Map>, Unsupported> {
-        Ok(vec![Map {
-            name: "packed depth",
-            format: self.precision.rgba(device),
-            layers: 1,
-            encode: Encode::Neighbours("packed_encode"),
-            passes: Vec::new(),
-        }])
-    }
-    fn fallbacks(&self, device: &Capabilities) -> Vec<String> {
-        self.precision.fallbacks(device)
-    }
-    fn bindings(&self) -> Vec<Binding> {
-        vec![Binding::Map(0)]
-    }
-    fn wgsl(&self) -> &'static str {
-        include_str!("packed.wgsl")
-    }
-    fn constants(&self) -> Vec<Constant> {
+    fn describe(&self, device: &Capabilities) -> Result<Description, Unsupported> {
         let phases = match self.grid {
             Grid::Two => 1,
             Grid::Four => 2,
         };
-        let bytes = u32::from(self.accumulation == Accumulation::Bytes);
-        let own = [Constant::Count("packed_phases", phases), Constant::Count("packed_in_bytes", bytes)];
-        own.into_iter().chain(self.precision.constants()).collect()
+        let (wgsl, map) =
+            (include_str!("packed.wgsl"), ("packed depth", 1, Encode::Neighbours("packed_encode")));
+        let mut described = Description::stored_depth(self.about(), wgsl, map, self.precision, device);
+        described.constants.extend([
+            Constant::Count("packed_phases", phases),
+            Constant::Count("packed_in_bytes", u32::from(self.accumulation == Accumulation::Bytes)),
+        ]);
+        Ok(Description { filter_radius_texels: phases as f32, fetches: phases.pow(2), ..described })
     }
-    fn parts(&self, _: &Capabilities) -> Vec<&'static str> {
-        vec![self.precision.part()]
+    fn variants(&self) -> Vec<&'static str> {
+        [&Precision::VARIANTS[..], &["grid=4", "grid=4,accumulation=bytes,precision=8"]].concat()
     }
-    fn bias(&self) -> BiasTerms {
-        BiasTerms::TEXELS
-    }
-    fn depth_step(&self) -> f32 {
-        self.precision.step()
-    }
-    fn reach_texels(&self) -> f32 {
-        match self.grid {
-            Grid::Two => 1.0,
-            Grid::Four => 2.0,
-        }
-    }
-    fn lookups(&self) -> u32 {
-        match self.grid {
-            Grid::Two => 1,
-            Grid::Four => 4,
-        }
-    }
-    fn boxed(&self) -> Box<dyn Technique> {
+    fn clone_box(&self) -> Box<dyn Technique> {
         Box::new(*self)
     }
 }

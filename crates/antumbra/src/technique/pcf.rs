@@ -15,7 +15,7 @@
 //!
 //! Reeves, Salesin, Cook 1987, "Rendering antialiased shadows with depth maps".
 
-use super::{BiasTerms, Binding, Constant, DepthSpace, Family, Map, Page, Technique};
+use super::{About, BiasTerms, Constant, Description, Family, Technique};
 use crate::{
     capabilities::Capabilities,
     error::Unsupported,
@@ -95,8 +95,8 @@ impl Pcf {
 }
 
 impl Technique for Pcf {
-    fn page(&self) -> Page {
-        Page {
+    fn about(&self) -> About {
+        About {
             name: "pcf",
             title: "Percentage-closer filtering",
             family: Family::Comparison,
@@ -122,63 +122,33 @@ impl Technique for Pcf {
             self.precision.parameter(),
         ]
     }
-    fn maps(&self, _: &Capabilities) -> Result<Vec<Map>, Unsupported> {
-        Ok(Vec::new())
-    }
-    fn bindings(&self) -> Vec<Binding> {
-        let filter = match self.taps {
-            Taps::Nearest | Taps::Gather => wgpu::FilterMode::Nearest,
-            Taps::Bilinear | Taps::Merged => wgpu::FilterMode::Linear,
+    fn describe(&self, _: &Capabilities) -> Result<Description, Unsupported> {
+        use wgpu::FilterMode::{Linear, Nearest};
+        let side = self.kernel as f32;
+        // Slot, filter of the comparisons, half the width of the kernel with theirs, lookups along one side.
+        let (slot, filter, radius, lookups) = match self.taps {
+            Taps::Nearest => ("taps_nearest", Nearest, side / 2.0, self.kernel),
+            Taps::Bilinear => ("taps_bilinear", Linear, side / 2.0 + 0.5, self.kernel),
+            Taps::Merged => ("taps_merged", Linear, side / 2.0 + 0.5, self.pairs()),
+            Taps::Gather => ("taps_gather", Nearest, side / 2.0 + 0.5, self.pairs()),
         };
-        vec![Binding::Depth, Binding::Compare(filter)]
-    }
-    fn wgsl(&self) -> &'static str {
-        include_str!("pcf.wgsl")
-    }
-    fn constants(&self) -> Vec<Constant> {
-        let bell = self.bell().to_vec();
-        let mut constants = vec![
-            Constant::Array("taps_bell", bell),
+        let mut described =
+            Description::comparison(self.about(), include_str!("pcf.wgsl"), filter, self.precision);
+        if self.taps == Taps::Gather {
+            described.bias = BiasTerms::FOURS;
+        }
+        described.slots.push(slot);
+        described.constants.extend([
+            Constant::Array("taps_bell", self.bell().to_vec()),
             Constant::Count("taps_width", self.kernel),
             Constant::Count("taps_pairs", self.pairs()),
-        ];
-        constants.extend(self.precision.constants());
-        constants
+        ]);
+        Ok(Description { filter_radius_texels: radius, fetches: lookups.pow(2), ..described })
     }
-    fn parts(&self, _: &Capabilities) -> Vec<&'static str> {
-        let taps = match self.taps {
-            Taps::Nearest => "taps_nearest",
-            Taps::Bilinear => "taps_bilinear",
-            Taps::Merged => "taps_merged",
-            Taps::Gather => "taps_gather",
-        };
-        vec![taps, self.precision.part()]
+    fn variants(&self) -> Vec<&'static str> {
+        [&Precision::VARIANTS[..], &["taps=nearest,kernel=5", "taps=bilinear", "taps=merged,kernel=4"]].concat()
     }
-    fn bias(&self) -> BiasTerms {
-        match self.taps {
-            Taps::Nearest => BiasTerms::TEXELS,
-            Taps::Bilinear | Taps::Merged | Taps::Gather => BiasTerms::FOURS,
-        }
-    }
-    fn depth_step(&self) -> f32 {
-        self.precision.step()
-    }
-    fn depth_space(&self) -> DepthSpace {
-        DepthSpace::Raster
-    }
-    fn reach_texels(&self) -> f32 {
-        match self.taps {
-            Taps::Nearest => self.kernel as f32 / 2.0,
-            Taps::Bilinear | Taps::Merged | Taps::Gather => self.kernel as f32 / 2.0 + 0.5,
-        }
-    }
-    fn lookups(&self) -> u32 {
-        match self.taps {
-            Taps::Nearest | Taps::Bilinear => self.kernel.pow(2),
-            Taps::Merged | Taps::Gather => self.pairs().pow(2),
-        }
-    }
-    fn boxed(&self) -> Box<dyn Technique> {
+    fn clone_box(&self) -> Box<dyn Technique> {
         Box::new(*self)
     }
 }

@@ -10,7 +10,7 @@
 //!
 //! Vogel 1979, "A better way to construct the sunflower head"; Jimenez 2014 (noise).
 
-use super::{BiasTerms, Binding, Constant, DepthSpace, Family, Map, Page, Technique};
+use super::{About, Constant, Description, Family, Technique};
 use crate::{
     capabilities::Capabilities,
     error::Unsupported,
@@ -54,8 +54,8 @@ impl Default for Poisson {
 }
 
 impl Technique for Poisson {
-    fn page(&self) -> Page {
-        Page {
+    fn about(&self) -> About {
+        About {
             name: "poisson",
             title: "Poisson-disk percentage-closer filtering",
             family: Family::Comparison,
@@ -76,48 +76,29 @@ impl Technique for Poisson {
             self.precision.parameter(),
         ]
     }
-    fn maps(&self, _: &Capabilities) -> Result<Vec<Map>, Unsupported> {
-        Ok(Vec::new())
-    }
-    fn bindings(&self) -> Vec<Binding> {
-        vec![Binding::Depth, Binding::Compare(wgpu::FilterMode::Linear)]
-    }
-    fn wgsl(&self) -> &'static str {
-        include_str!("poisson.wgsl")
-    }
-    fn widths(&self) -> Vec<(&'static str, Width)> {
-        vec![("diameter", Width { texels: self.kernel, world: self.width })]
-    }
-    fn constants(&self) -> Vec<Constant> {
-        let centre = centre(self.points).as_vec2().to_array().to_vec();
-        let mut constants =
-            vec![Constant::Count("poisson_points", self.points), Constant::Array("poisson_centre", centre)];
-        constants.extend(self.precision.constants());
-        constants
-    }
-    fn parts(&self, _: &Capabilities) -> Vec<&'static str> {
+    fn describe(&self, _: &Capabilities) -> Result<Description, Unsupported> {
         let spin = match self.spin {
             Spin::Fixed => "spin_fixed",
             Spin::Noise => "spin_noise",
         };
-        vec![spin, self.precision.part()]
+        let (wgsl, linear) = (include_str!("poisson.wgsl"), wgpu::FilterMode::Linear);
+        let mut described = Description::comparison(self.about(), wgsl, linear, self.precision);
+        described.slots.push(spin);
+        described.constants.extend([
+            Constant::Count("poisson_points", self.points),
+            Constant::Array("poisson_centre", centre(self.points).as_vec2().to_array().to_vec()),
+        ]);
+        Ok(Description {
+            widths: vec![("diameter", Width { texels: self.kernel, world: self.width })],
+            filter_radius_texels: self.kernel / 2.0 + 1.0,
+            fetches: self.points,
+            ..described
+        })
     }
-    fn bias(&self) -> BiasTerms {
-        BiasTerms::FOURS
+    fn variants(&self) -> Vec<&'static str> {
+        [&Precision::VARIANTS[..], &["spin=fixed,points=5"]].concat()
     }
-    fn depth_step(&self) -> f32 {
-        self.precision.step()
-    }
-    fn depth_space(&self) -> DepthSpace {
-        DepthSpace::Raster
-    }
-    fn reach_texels(&self) -> f32 {
-        self.kernel / 2.0 + 1.0
-    }
-    fn lookups(&self) -> u32 {
-        self.points
-    }
-    fn boxed(&self) -> Box<dyn Technique> {
+    fn clone_box(&self) -> Box<dyn Technique> {
         Box::new(*self)
     }
 }

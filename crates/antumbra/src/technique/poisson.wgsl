@@ -7,11 +7,11 @@ const poisson_centre = array<f32, 2>(0.0, 0.0);
 /// Cosine and sine of the golden angle, π(3 − √5).
 const poisson_golden = vec2f(-0.73736887807832, 0.67549029426152);
 
-/// Mean of bilinear comparisons at the points of a disk `diameter` texels wide around uv. Point i of n lies
+/// Mean of bilinear comparisons at the points of a disk poisson_diameter texels wide around uv. Point i of n lies
 /// at the radius √((i + ½)/n), turned by the golden angle from the one before [Vogel 1979].
-fn poisson_visibility(casters: texture_depth_2d_array, compare: sampler_comparison, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f, diameter: f32) -> f32 {
+fn poisson_visibility(casters: texture_depth_2d_array, compare: sampler_comparison, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f) -> f32 {
     let texel = 1.0 / vec2f(textureDimensions(casters));
-    let turn = 0.5 * diameter * spin_rotation(uv, ddx, ddy);
+    let turn = 0.5 * poisson_diameter(view) * spin_rotation(uv, ddx, ddy);
     let centre = vec2f(poisson_centre[0], poisson_centre[1]);
     let origin = uv / texel - vec2f(turn.x * centre.x - turn.y * centre.y, turn.y * centre.x + turn.x * centre.y);
     let half_gain = 0.5 * dot(abs(plane), texel);

@@ -8,10 +8,7 @@
 //!
 //! Dai, Yang, Feng 2008, "Reconstructable Geometry Shadow Maps".
 
-use super::{
-    BiasTerms, Binding, Caster, Constant, Coverage, DepthSpace, Encode, Family, Map, Page, Technique,
-    spsm::Packing,
-};
+use super::{About, Caster, Constant, Coverage, Description, Family, Technique, spsm::Packing};
 use crate::{
     capabilities::Capabilities,
     error::Unsupported,
@@ -49,8 +46,8 @@ impl Default for Rgsm {
 }
 
 impl Technique for Rgsm {
-    fn page(&self) -> Page {
-        Page {
+    fn about(&self) -> About {
+        About {
             name: "rgsm",
             title: "Reconstructable geometry shadow map",
             family: Family::Geometry,
@@ -79,46 +76,22 @@ impl Technique for Rgsm {
             ),
         ]
     }
-    fn maps(&self, _: &Capabilities) -> Result<Vec<Map>, Unsupported> {
-        Ok(vec![Map {
-            name: "triangles",
-            format: wgpu::TextureFormat::Rgba32Uint,
-            layers: 1,
-            encode: Encode::Texel("packing_texel"),
-            passes: Vec::new(),
-        }])
+    fn describe(&self, _: &Capabilities) -> Result<Description, Unsupported> {
+        let caster = Caster::Triangles(&[Coverage::Centre]);
+        Ok(Description {
+            slots: self.packing.slots(),
+            constants: vec![
+                Constant::Count("rgsm_neighbours", self.neighbours),
+                Constant::Count("rgsm_compares", u32::from(self.missed == Missed::Centre)),
+            ],
+            fetches: self.neighbours * self.neighbours,
+            ..Description::triangles(self.about(), include_str!("rgsm.wgsl"), caster)
+        })
     }
-    fn caster(&self) -> Caster {
-        Caster::Triangles(&[Coverage::Centre])
+    fn variants(&self) -> Vec<&'static str> {
+        vec!["packing=map,neighbours=5", "packing=texel,neighbours=1"]
     }
-    fn bindings(&self) -> Vec<Binding> {
-        vec![Binding::Map(0)]
-    }
-    fn wgsl(&self) -> &'static str {
-        include_str!("rgsm.wgsl")
-    }
-    fn constants(&self) -> Vec<Constant> {
-        vec![
-            Constant::Count("rgsm_neighbours", self.neighbours),
-            Constant::Count("rgsm_compares", u32::from(self.missed == Missed::Centre)),
-        ]
-    }
-    fn parts(&self, _: &Capabilities) -> Vec<&'static str> {
-        self.packing.parts()
-    }
-    fn bias(&self) -> BiasTerms {
-        BiasTerms { constant_texels: 0.05, slope_texels: 0.05, ..BiasTerms::NONE }
-    }
-    fn depth_space(&self) -> DepthSpace {
-        DepthSpace::Raster
-    }
-    fn reach_texels(&self) -> f32 {
-        0.5
-    }
-    fn lookups(&self) -> u32 {
-        self.neighbours * self.neighbours
-    }
-    fn boxed(&self) -> Box<dyn Technique> {
+    fn clone_box(&self) -> Box<dyn Technique> {
         Box::new(*self)
     }
 }

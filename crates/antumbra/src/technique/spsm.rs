@@ -11,9 +11,7 @@
 //!
 //! Lecocq, Marvie, Sourimant, Gautron 2014, "Sub-Pixel Shadow Mapping".
 
-use super::{
-    BiasTerms, Binding, Caster, Class, Constant, Coverage, DepthSpace, Encode, Family, Map, Page, Technique,
-};
+use super::{About, Caster, Class, Constant, Coverage, Description, Family, Technique};
 use crate::{
     capabilities::Capabilities,
     error::Unsupported,
@@ -34,8 +32,8 @@ choice! {
 }
 
 impl Packing {
-    /// The parts of WGSL that it is made of.
-    pub(crate) fn parts(self) -> Vec<&'static str> {
+    /// The files of WGSL that it is made of.
+    pub(crate) fn slots(self) -> Vec<&'static str> {
         match self {
             Self::Map => vec!["packing_corners", "points_map"],
             Self::Texel => vec!["packing_corners", "points_texel"],
@@ -65,9 +63,15 @@ impl Default for Spsm {
     }
 }
 
+const CLASSES: [Class; 3] = [
+    Class { name: "shadowed by its own texel's triangle", colour: [90, 110, 160] },
+    Class { name: "shadowed by a triangle of 3×3 texels", colour: [40, 160, 60] },
+    Class { name: "uncertain", colour: [224, 32, 32] },
+];
+
 impl Technique for Spsm {
-    fn page(&self) -> Page {
-        Page {
+    fn about(&self) -> About {
+        About {
             name: "spsm",
             title: "Sub-pixel shadow map",
             family: Family::Geometry,
@@ -96,56 +100,26 @@ impl Technique for Spsm {
             ),
         ]
     }
-    fn maps(&self, _: &Capabilities) -> Result<Vec<Map>, Unsupported> {
-        Ok(vec![Map {
-            name: "triangles",
-            format: wgpu::TextureFormat::Rgba32Uint,
-            layers: self.layers,
-            encode: Encode::Texel("packing_texel"),
-            passes: Vec::new(),
-        }])
+    fn describe(&self, _: &Capabilities) -> Result<Description, Unsupported> {
+        let caster =
+            Caster::Triangles(&[Coverage::Touched, Coverage::Centre][..self.layers.min(2) as usize]);
+        Ok(Description {
+            slots: self.packing.slots(),
+            constants: vec![
+                Constant::Count("spsm_layers", self.layers),
+                Constant::Count("spsm_samples", self.samples),
+            ],
+            classes: &CLASSES,
+            // Its own and nine texels per layer; the centres, or with one layer each step of the silhouette,
+            // take nine more.
+            fetches: 1 + 9 * self.layers,
+            ..Description::triangles(self.about(), include_str!("spsm.wgsl"), caster)
+        })
     }
-    fn caster(&self) -> Caster {
-        Caster::Triangles(&[Coverage::Touched, Coverage::Centre][..self.layers.min(2) as usize])
+    fn variants(&self) -> Vec<&'static str> {
+        vec!["packing=map,layers=1", "packing=texel,samples=2"]
     }
-    fn bindings(&self) -> Vec<Binding> {
-        vec![Binding::Map(0)]
-    }
-    fn wgsl(&self) -> &'static str {
-        include_str!("spsm.wgsl")
-    }
-    fn constants(&self) -> Vec<Constant> {
-        vec![
-            Constant::Count("spsm_layers", self.layers),
-            Constant::Count("spsm_samples", self.samples),
-        ]
-    }
-    fn parts(&self, _: &Capabilities) -> Vec<&'static str> {
-        self.packing.parts()
-    }
-    fn bias(&self) -> BiasTerms {
-        BiasTerms { constant_texels: 0.05, slope_texels: 0.05, ..BiasTerms::NONE }
-    }
-    fn depth_space(&self) -> DepthSpace {
-        DepthSpace::Raster
-    }
-    fn reach_texels(&self) -> f32 {
-        0.5
-    }
-    /// Its own and nine texels per layer; the centres, or with one layer each step of the silhouette, take
-    /// nine more.
-    fn lookups(&self) -> u32 {
-        1 + 9 * self.layers
-    }
-    fn classes(&self) -> &'static [Class] {
-        const CLASSES: [Class; 3] = [
-            Class { name: "shadowed by its own texel's triangle", colour: [90, 110, 160] },
-            Class { name: "shadowed by a triangle of 3×3 texels", colour: [40, 160, 60] },
-            Class { name: "uncertain", colour: [224, 32, 32] },
-        ];
-        &CLASSES
-    }
-    fn boxed(&self) -> Box<dyn Technique> {
+    fn clone_box(&self) -> Box<dyn Technique> {
         Box::new(*self)
     }
 }

@@ -7,7 +7,7 @@
 //!
 //! Brabec & Seidel 2001, "Hardware-accelerated rendering of antialiased shadows with shadow maps", §3.
 
-use super::{BiasTerms, Binding, Constant, Encode, Family, Map, Page, Technique};
+use super::{About, Constant, Description, Encode, Family, Technique};
 use crate::{
     capabilities::Capabilities,
     error::Unsupported,
@@ -34,8 +34,8 @@ impl Default for Stratified {
 }
 
 impl Technique for Stratified {
-    fn page(&self) -> Page {
-        Page {
+    fn about(&self) -> About {
+        About {
             name: "stratified",
             title: "Stratified percentage-closer filtering",
             family: Family::Comparison,
@@ -53,49 +53,21 @@ impl Technique for Stratified {
             self.precision.parameter(),
         ]
     }
-    fn jitter(&self) -> Vec<Vec2> {
+    fn describe(&self, device: &Capabilities) -> Result<Description, Unsupported> {
         let n = self.grid;
         let at = |i: u32| (i as f32 + 0.5) / n as f32 - 0.5;
-        (0..n * n).map(|k| Vec2::new(at(k % n), at(k / n))).collect()
+        let fetches = (n * n).div_ceil(4);
+        let (wgsl, map) =
+            (include_str!("stratified.wgsl"), ("jittered depth", fetches, Encode::Texel("stratified_encode")));
+        let mut described = Description::stored_depth(self.about(), wgsl, map, self.precision, device);
+        described.constants.push(Constant::Count("stratified_grid", n));
+        described.sample_offsets = (0..n * n).map(|k| Vec2::new(at(k % n), at(k / n))).collect();
+        Ok(Description { fetches, ..described })
     }
-    fn maps(&self, device: &Capabilities) -> Result<Vec<Map>, Unsupported> {
-        Ok(vec![Map {
-            name: "jittered depth",
-            format: self.precision.rgba(device),
-            layers: (self.grid * self.grid).div_ceil(4),
-            encode: Encode::Texel("stratified_encode"),
-            passes: Vec::new(),
-        }])
+    fn variants(&self) -> Vec<&'static str> {
+        [&Precision::VARIANTS[..], &["grid=4"]].concat()
     }
-    fn fallbacks(&self, device: &Capabilities) -> Vec<String> {
-        self.precision.fallbacks(device)
-    }
-    fn bindings(&self) -> Vec<Binding> {
-        vec![Binding::Map(0)]
-    }
-    fn wgsl(&self) -> &'static str {
-        include_str!("stratified.wgsl")
-    }
-    fn constants(&self) -> Vec<Constant> {
-        let own = [Constant::Count("stratified_grid", self.grid)];
-        own.into_iter().chain(self.precision.constants()).collect()
-    }
-    fn parts(&self, _: &Capabilities) -> Vec<&'static str> {
-        vec![self.precision.part()]
-    }
-    fn bias(&self) -> BiasTerms {
-        BiasTerms::TEXELS
-    }
-    fn depth_step(&self) -> f32 {
-        self.precision.step()
-    }
-    fn reach_texels(&self) -> f32 {
-        0.5
-    }
-    fn lookups(&self) -> u32 {
-        (self.grid * self.grid).div_ceil(4)
-    }
-    fn boxed(&self) -> Box<dyn Technique> {
+    fn clone_box(&self) -> Box<dyn Technique> {
         Box::new(*self)
     }
 }

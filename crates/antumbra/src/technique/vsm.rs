@@ -6,7 +6,7 @@
 //!
 //! Donnelly & Lauritzen 2006, "Variance shadow maps".
 
-use super::{Adaptive, Binding, Combine, Constant, Encode, Family, Map, Page, Technique, Uniform};
+use super::{About, Constant, Description, Encode, Family, Technique};
 use crate::{
     bound,
     capabilities::Capabilities,
@@ -73,14 +73,17 @@ impl Default for Vsm {
 }
 
 impl Vsm {
-    fn values(&self, device: Option<&Capabilities>) -> Values {
-        let renders = device.is_none_or(|d| d.renders(TextureFormat::Rg16Unorm));
-        let format = match self.storage {
-            Storage::Float16 => TextureFormat::Rg16Float,
-            Storage::Unorm16 if renders => TextureFormat::Rg16Unorm,
-            Storage::Float32 | Storage::Unorm16 => TextureFormat::Rg32Float,
+    fn values(&self, device: &Capabilities) -> Values {
+        let (format, note) = match self.storage {
+            Storage::Float32 => (TextureFormat::Rg32Float, None),
+            Storage::Float16 => (TextureFormat::Rg16Float, None),
+            Storage::Unorm16 => device.norm16("moments", TextureFormat::Rg16Unorm, TextureFormat::Rg32Float),
         };
-        Values { format, layers: 1, ranges: vec![[0.0, 1.0]; 2], bits: 24 }
+        let encode = match self.slope_of {
+            SlopeOf::Receiver => Encode::Texel("vsm_encode"),
+            SlopeOf::Caster => Encode::Neighbours("vsm_encode_sloped"),
+        };
+        Values { note, ..Values::new("moments", format, encode) }
     }
 
     /// Least variance, and share of the mean square beside it, that cover what storage rounds off a
@@ -98,8 +101,8 @@ impl Vsm {
 }
 
 impl Technique for Vsm {
-    fn page(&self) -> Page {
-        Page {
+    fn about(&self) -> About {
+        About {
             name: "vsm",
             title: "Variance shadow map",
             family: Family::Basis,
@@ -116,55 +119,30 @@ impl Technique for Vsm {
         ];
         own.into_iter().chain(self.filter.parameters()).collect()
     }
-    fn maps(&self, device: &Capabilities) -> Result<Vec<Map>, Unsupported> {
-        let encode = match self.slope_of {
-            SlopeOf::Receiver => Encode::Texel("vsm_encode"),
-            SlopeOf::Caster => Encode::Neighbours("vsm_encode_sloped"),
-        };
-        Ok(vec![self.filter.map("moments", encode, self.values(Some(device)), Combine::Mean)])
-    }
-    fn fallbacks(&self, device: &Capabilities) -> Vec<String> {
-        let format = (self.storage == Storage::Unorm16).then_some(TextureFormat::Rg16Unorm);
-        self.filter.told_of_norm16(device, "moments", format).into_iter().collect()
-    }
-    fn bindings(&self) -> Vec<Binding> {
-        vec![Binding::Map(0), Binding::Sampler]
-    }
-    fn wgsl(&self) -> &'static str {
-        include_str!("vsm.wgsl")
-    }
-    fn uniforms(&self) -> Vec<Uniform> {
+    fn describe(&self, device: &Capabilities) -> Result<Description, Unsupported> {
         let [least_variance, rounding] = self.floor();
-        vec![
+        let values = self.values(device);
+        let wgsl = include_str!("vsm.wgsl");
+        let mut described = Description::filtered(self.about(), wgsl, &self.filter, values, device);
+        described.constants.push(Constant::Count(
+            "vsm_slope_of_receiver",
+            u32::from(self.slope_of == SlopeOf::Receiver),
+        ));
+        described.settings = vec![
             ("least_variance", least_variance),
             ("rounding", rounding),
             ("reduction", self.reduction),
             ("slope", self.slope),
-        ]
+        ];
+        // What the least variance lets through a tenth of the depth range behind a blocker.
+        let least = least_variance.max(rounding);
+        described.ringing = (least / (least + 0.01) - self.reduction).max(0.0) / (1.0 - self.reduction);
+        Ok(described)
     }
-    fn blur(&self) -> Option<Adaptive> {
-        self.filter.adapted()
+    fn variants(&self) -> Vec<&'static str> {
+        [&Filter::VARIANTS[..], &["slope_of=caster", "storage=float16", "storage=unorm16"]].concat()
     }
-    fn constants(&self) -> Vec<Constant> {
-        let receiver = u32::from(self.slope_of == SlopeOf::Receiver);
-        let own = Constant::Count("vsm_slope_of_receiver", receiver);
-        std::iter::once(own).chain(self.filter.constants(&self.values(None), Combine::Mean)).collect()
-    }
-    fn parts(&self, device: &Capabilities) -> Vec<&'static str> {
-        self.filter.parts(device, &self.values(Some(device)), Combine::Mean)
-    }
-    fn reach_texels(&self) -> f32 {
-        self.filter.reach_texels()
-    }
-    /// What the least variance lets through a tenth of the depth range behind a blocker.
-    fn ripple(&self) -> f32 {
-        let least = self.floor().into_iter().fold(0.0, f32::max);
-        (least / (least + 0.01) - self.reduction).max(0.0) / (1.0 - self.reduction)
-    }
-    fn lookups(&self) -> u32 {
-        self.filter.lookups(&self.values(None))
-    }
-    fn boxed(&self) -> Box<dyn Technique> {
+    fn clone_box(&self) -> Box<dyn Technique> {
         Box::new(*self)
     }
 }

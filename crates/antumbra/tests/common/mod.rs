@@ -4,7 +4,8 @@
 #![allow(dead_code, unreachable_pub, reason = "each test program uses a part")]
 
 use antumbra::{
-    CasterMesh, NoProbe, Options, Pipelines, ShadowMap, Size, Technique, View, technique::Caster,
+    Capabilities, CasterMesh, NoProbe, Options, Pipelines, ShadowMap, Size, Technique, View,
+    technique::Caster,
 };
 use antumbra_testing::Gpu;
 use glam::{Mat4, Vec2, Vec3, Vec4};
@@ -235,11 +236,12 @@ pub fn shadow_map_of(
     views: &[View],
 ) -> ShadowMap {
     let options = options.pipelines(&kept(gpu).pipelines);
-    if technique.caster() != Caster::Depth {
+    let described = technique.describe(&Capabilities::of(&gpu.device)).unwrap();
+    if described.caster != Caster::Depth {
         return triangle_map(gpu, technique, depth, options, views);
     }
     // Depth that was made for one caster pass serves all of them.
-    let casts = technique.jitter().len() as u32;
+    let casts = described.sample_offsets.len() as u32;
     let repeated = depth.depth_or_array_layers() == views.len() as u32 && casts > 1;
     let depth = if repeated { repeat_layers(gpu, depth, casts) } else { depth.clone() };
     let mut shadows = ShadowMap::from_depth(&gpu.device, technique, &depth, options).unwrap();

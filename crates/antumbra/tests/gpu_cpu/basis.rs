@@ -13,81 +13,93 @@ const SINE: f64 = 4e-7;
 /// exp: (3 + 2|x|) ulp are allowed, and c·z is rounded: 87 · (2 · 1.2e-7 + 6e-8) with some room.
 pub(crate) fn esm_encodes_and_bounds(gpu: &Gpu) {
     const EXP: f64 = 3e-5;
-    let shadows = shadows(gpu, &esm::Esm::default(), 1);
-    let rows = rows(2, |r| {
-        let (z, d, c) = (r.unit(), r.unit(), r.range(1.0, 87.0));
-        row([z, d, c, (c * z).exp()])
-    });
-    let body = "
-        put(0u, esm_encode(take(0u), 0u, take(2u), 0.0, 0.0).x);
-        put(1u, clamp(esm_ratio(take(1u), take(3u), take(2u)), 0.0, 1.0));";
-    let found = run::<2>(gpu, &shadows, body, &rows);
-    let encode = |factor: f64| {
-        move |r: &[f64; INPUTS]| {
-            let e = esm::reference::encode(r[0], factor * r[2]);
-            ([e], e * EXP)
-        }
-    };
-    compare(&rows, &found, encode(1.0)).unwrap();
-    compare(&rows, &found, encode(1.001)).unwrap_err();
-    let bound =
-        |sign: f64| move |r: &[f64; INPUTS]| ([esm::reference::ratio(sign * r[1], r[3], r[2]).min(1.0)], EXP);
-    compare_from(1, &rows, &found, bound(1.0)).unwrap();
-    compare_from(1, &rows, &found, bound(-1.0)).unwrap_err();
+    for c in [1.0, 20.0, 80.0, 87.0] {
+        let shadows = shadows(gpu, &esm::Esm { c, ..esm::Esm::default() }, 1);
+        let rows = rows(2, |r| {
+            let (z, d) = (r.unit(), r.unit());
+            row([z, d, c, (c * z).exp()])
+        });
+        let body = "
+            put(0u, esm_encode(take(0u), 0u).x);
+            put(1u, clamp(esm_ratio(take(1u), take(3u)), 0.0, 1.0));";
+        let found = run::<2>(gpu, &shadows, body, &rows);
+        let encode = |factor: f64| {
+            move |r: &[f64; INPUTS]| {
+                let e = esm::reference::encode(r[0], factor * r[2]);
+                ([e], e * EXP)
+            }
+        };
+        compare(&rows, &found, encode(1.0)).unwrap();
+        compare(&rows, &found, encode(1.001)).unwrap_err();
+        let bound = |sign: f64| {
+            move |r: &[f64; INPUTS]| ([esm::reference::ratio(sign * r[1], r[3], r[2]).min(1.0)], EXP)
+        };
+        compare_from(1, &rows, &found, bound(1.0)).unwrap();
+        compare_from(1, &rows, &found, bound(-1.0)).unwrap_err();
+    }
 }
 
 /// Logarithms: exponents of some hundreds, each rounded by 6e-8 of its depth times c.
 pub(crate) fn esm_of_logarithms(gpu: &Gpu) {
-    let esm = esm::Esm { storage: esm::Storage::Log32, ..esm::Esm::default() };
-    let shadows = shadows(gpu, &esm, 1);
-    let rows = rows(16, |r| {
-        let (z, behind, c) = (r.unit(), r.unit() * r.unit(), r.range(1.0, 1000.0));
-        row([z, z + 0.01 * behind, c])
-    });
-    let body = "
-        put(0u, esm_encode(take(0u), 0u, take(2u), 0.0, 0.0).x);
-        put(1u, esm_ratio(take(1u), take(0u), take(2u)));";
-    let found = run::<2>(gpu, &shadows, body, &rows);
-    compare(&rows, &found, |r| ([r[0]], 0.0)).unwrap();
-    let ratio =
-        |factor: f64| move |r: &[f64; INPUTS]| ([(factor * r[2] * (r[0] - r[1])).exp()], 3e-5 + 2e-7 * r[2]);
-    compare_from(1, &rows, &found, ratio(1.0)).unwrap();
-    compare_from(1, &rows, &found, ratio(1.01)).unwrap_err();
+    for c in [1.0, 80.0, 300.0, 1000.0] {
+        let esm = esm::Esm { storage: esm::Storage::Log32, c, ..esm::Esm::default() };
+        let shadows = shadows(gpu, &esm, 1);
+        let rows = rows(16, |r| {
+            let (z, behind) = (r.unit(), r.unit() * r.unit());
+            row([z, z + 0.01 * behind, c])
+        });
+        let body = "
+            put(0u, esm_encode(take(0u), 0u).x);
+            put(1u, esm_ratio(take(1u), take(0u)));";
+        let found = run::<2>(gpu, &shadows, body, &rows);
+        compare(&rows, &found, |r| ([r[0]], 0.0)).unwrap();
+        let ratio = |factor: f64| {
+            move |r: &[f64; INPUTS]| ([(factor * r[2] * (r[0] - r[1])).exp()], 3e-5 + 2e-7 * r[2])
+        };
+        compare_from(1, &rows, &found, ratio(1.0)).unwrap();
+        compare_from(1, &rows, &found, ratio(1.01)).unwrap_err();
+    }
 }
 
 /// Products of numbers below one: a few roundings of 6e-8.
 pub(crate) fn vsm_encodes(gpu: &Gpu) {
-    let shadows = shadows(gpu, &vsm::Vsm::default(), 1);
-    let rows = rows(3, |r| std::array::from_fn(|i| if i == 9 { r.range(0.0, 4.0) } else { r.unit() }));
-    let body = "
-        let depths = mat3x3f(take3(0u), take3(3u), take3(6u));
-        put2(0u, vsm_encode_sloped(depths, 0u, 0.0, 0.0, 0.0, take(9u)).xy);
-        put2(2u, vsm_encode(take(4u), 0u, 0.0, 0.0, 0.0, 1.0).xy);";
-    let found = run::<4>(gpu, &shadows, body, &rows);
-    let moments = |factor: f64| {
-        move |r: &[f64; INPUTS]| {
-            let depths = std::array::from_fn(|i| std::array::from_fn(|j| r[3 * i + j]));
-            (vsm::reference::encode(depths, factor * r[9]), 1e-6)
-        }
-    };
-    compare::<4, 2>(&rows, &found, moments(1.0)).unwrap();
-    compare::<4, 2>(&rows, &found, moments(1.001)).unwrap_err();
-    let plain = |factor: f64| move |r: &[f64; INPUTS]| ([r[4], factor * r[4] * r[4]], 1e-6);
-    compare_from::<4, 2>(2, &rows, &found, plain(1.0)).unwrap();
-    compare_from::<4, 2>(2, &rows, &found, plain(1.001)).unwrap_err();
+    for slope in [0.5, 1.0, 3.7] {
+        let shadows = shadows(gpu, &vsm::Vsm { slope, ..vsm::Vsm::default() }, 1);
+        let rows = rows(3, |r| std::array::from_fn(|i| if i == 9 { slope } else { r.unit() }));
+        let body = "
+            let depths = mat3x3f(take3(0u), take3(3u), take3(6u));
+            put2(0u, vsm_encode_sloped(depths, 0u).xy);
+            put2(2u, vsm_encode(take(4u), 0u).xy);";
+        let found = run::<4>(gpu, &shadows, body, &rows);
+        let moments = |factor: f64| {
+            move |r: &[f64; INPUTS]| {
+                let depths = std::array::from_fn(|i| std::array::from_fn(|j| r[3 * i + j]));
+                (vsm::reference::encode(depths, factor * r[9]), 1e-6)
+            }
+        };
+        compare::<4, 2>(&rows, &found, moments(1.0)).unwrap();
+        compare::<4, 2>(&rows, &found, moments(1.001)).unwrap_err();
+        let plain = |factor: f64| move |r: &[f64; INPUTS]| ([r[4], factor * r[4] * r[4]], 1e-6);
+        compare_from::<4, 2>(2, &rows, &found, plain(1.0)).unwrap();
+        compare_from::<4, 2>(2, &rows, &found, plain(1.001)).unwrap_err();
+    }
 }
 
 /// The variance is a difference of numbers up to one, rounded by 1.2e-7 altogether; the bound
 /// changes with it by at most 1/(4σ²), which the reduction stretches by 1/(1 − r).
 pub(crate) fn vsm_and_chebyshev_bound(gpu: &Gpu) {
-    let shadows = shadows(gpu, &vsm::Vsm::default(), 1);
+    [0.2, 0.9].into_iter().for_each(|reduction| vsm_bound_reduced_by(gpu, reduction));
+}
+
+fn vsm_bound_reduced_by(gpu: &Gpu, reduction: f32) {
+    let shadows = shadows(gpu, &vsm::Vsm { reduction, ..vsm::Vsm::default() }, 1);
     let rows = rows(4, |r| {
         let (mean, variance) = (r.unit(), 10f32.powf(r.range(-6.0, -1.0)));
         let least = 10f32.powf(r.range(-5.0, -2.0));
-        row([r.unit(), mean, mean * mean + variance, least, r.range(0.0, 0.9)])
+        row([r.unit(), mean, mean * mean + variance, least, reduction])
     });
     let body = "
-        put(0u, vsm_bound(take(0u), take2(1u), take(3u), 0.0, take(4u)));
+        put(0u, vsm_bound(take(0u), take2(1u), take(3u)));
         put(1u, chebyshev_bound(take(0u), take2(1u), take(3u)));
         put(2u, chebyshev_reduce(take(0u), take(4u)));";
     let found = run::<3>(gpu, &shadows, body, &rows);
@@ -130,12 +142,9 @@ pub(crate) fn evsm_encodes_and_bounds(gpu: &Gpu) {
             row([depth, m[0] as f32, m[1] as f32, m[2] as f32, m[3] as f32])
         });
         let body = "
-            let c = vec2f(shadow.setting_positive, shadow.setting_negative);
-            let least = vec3f(shadow.setting_least_variance, shadow.setting_rounding, shadow.setting_denormal);
-            let reduction = shadow.setting_reduction;
-            put4(0u, evsm_encode(take(0u), 0u, c.x, c.y, least.x, least.y, least.z, 1.0, reduction));
+            put4(0u, evsm_encode(take(0u), 0u));
             let moments = vec4f(take2(1u), take2(3u));
-            put(4u, evsm_bound(take(0u), moments, c.x, c.y, least.x, least.y, least.z, reduction));";
+            put(4u, evsm_bound(take(0u), moments, evsm_least_variance()));";
         let found = run::<5>(gpu, &shadows, body, &rows);
         for (i, moment) in ["e", "e²", "−e", "e²"].iter().enumerate() {
             let encode = |factor: f64| {
@@ -165,22 +174,27 @@ pub(crate) fn evsm_encodes_and_bounds(gpu: &Gpu) {
 
 /// The bound is as uncertain as rounding of the moments makes it, which is found by trying.
 pub(crate) fn msm_encodes_and_bounds(gpu: &Gpu) {
+    [0.0, 0.35].into_iter().for_each(|reduction| msm_reduced_by(gpu, reduction));
+}
+
+fn msm_reduced_by(gpu: &Gpu, reduction: f32) {
     use msm::reference;
-    const BIAS: f64 = 1e-3;
-    let shadows = shadows(gpu, &msm::Msm::default(), 1);
+    const BIAS: f32 = 1e-3;
+    let msm = msm::Msm { moment_bias: BIAS, reduction, ..msm::Msm::default() };
+    let shadows = shadows(gpu, &msm, 1);
     // Three casters, mixed.
     let rows = rows(14, |r| {
         let z = [r.unit(), r.unit(), r.unit()].map(|z| reference::moments(z.into()));
         let (a, b) = (f64::from(r.unit()), f64::from(r.unit()));
         let m: [f64; 4] =
             std::array::from_fn(|i| a * z[0][i] + (1.0 - a) * (b * z[1][i] + (1.0 - b) * z[2][i]));
-        row([r.unit(), m[0] as f32, m[1] as f32, m[2] as f32, m[3] as f32, r.range(0.0, 0.5)])
+        row([r.unit(), m[0] as f32, m[1] as f32, m[2] as f32, m[3] as f32, reduction])
     });
     let body = "
         let moments = vec4f(take2(1u), take2(3u));
-        put4(0u, msm_encode(take(0u), 0u, 0.0, 0.0));
+        put4(0u, msm_encode(take(0u), 0u));
         put4(4u, msm_restore(msm_transform(moments)));
-        put(8u, msm_bound(take(0u), moments, 1e-3, take(5u)));";
+        put(8u, msm_bound(take(0u), moments));";
     let found = run::<9>(gpu, &shadows, body, &rows);
     let encode = |factor: f64| {
         move |r: &[f64; INPUTS]| {
@@ -197,7 +211,7 @@ pub(crate) fn msm_encodes_and_bounds(gpu: &Gpu) {
         move |r: &[f64; INPUTS]| {
             let m = [r[1], r[2], r[3], r[4]];
             let at = |d: f64, m| {
-                let v = reference::bound(d, m, BIAS).clamp(0.0, 1.0);
+                let v = reference::bound(d, m, BIAS.into()).clamp(0.0, 1.0);
                 ((v - r[5]) / (1.0 - r[5])).max(0.0)
             };
             let v = at(r[0] + offset, m);
@@ -222,9 +236,9 @@ pub(crate) fn lvsm_encodes_and_bounds(gpu: &Gpu) {
     });
     let body = "
         let i = u32(take(3u));
-        let pair = lvsm_encode(take(0u), i / 2u, 0.25, 1e-4, 1.0, 0.0);
+        let pair = lvsm_encode(take(0u), i / 2u);
         put2(0u, select(pair.xy, pair.zw, i % 2u == 1u));
-        put(2u, lvsm_one(take(0u), take2(1u), i, 0.25, 1e-4));";
+        put(2u, lvsm_one(take(0u), take2(1u), i, lvsm_least_variance()));";
     let found = run::<3>(gpu, &shadows, body, &rows);
     let encode = |factor: f64| {
         move |r: &[f64; INPUTS]| {
@@ -261,8 +275,8 @@ pub(crate) fn csm_sums_its_series(gpu: &Gpu) {
             put2(0u, select(pair.xy, pair.zw, k % 2u == 1u));
             var sum = 0.5;
             for (var layer = 0u; layer < (csm_terms + 1u) / 2u; layer += 1u) {
-                let stored = csm_encode(take(0u), layer, 1.0, 0.0, 1.0);
-                sum += csm_layer(csm_basis(take(1u), layer), stored, layer);
+                let stored = csm_encode(take(0u), layer);
+                sum += csm_layer(csm_basis(csm_span() * take(1u), layer), stored, layer);
             }
             put(2u, sum);";
         let found = run::<3>(gpu, &shadows, body, &rows);
@@ -275,9 +289,10 @@ pub(crate) fn csm_sums_its_series(gpu: &Gpu) {
         compare(&rows, &found, basis(1.001)).unwrap_err();
         // Term k errs as basis k does, (2k − 1) times a sine, and weighs 2/π/(2k − 1), on both sides.
         let error = 4.0 / std::f64::consts::PI * f64::from(csm.terms) * SINE + 2e-5;
+        let span = f64::from(csm.span());
         let series = |sign: f64| {
             move |r: &[f64; INPUTS]| {
-                let v = csm::reference::series(&csm, r[1], r[0]) - 0.5;
+                let v = csm::reference::series(&csm, span * r[1], span * r[0]) - 0.5;
                 ([0.5 + sign * v], error)
             }
         };

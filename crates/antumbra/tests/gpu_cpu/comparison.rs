@@ -25,10 +25,10 @@ pub(crate) fn tilted_receivers(seed: u64) -> Vec<Row> {
 }
 
 /// Asks a technique's function alone, without the glue.
-pub(crate) fn ask(gpu: &Gpu, technique: &dyn Technique, uniforms: &str, rows: &[Row]) -> Vec<[f32; 1]> {
-    let name = technique.page().name;
+pub(crate) fn ask(gpu: &Gpu, technique: &dyn Technique, rows: &[Row]) -> Vec<[f32; 1]> {
+    let name = technique.about().name;
     let body = format!(
-        "put(0u, {name}_visibility(shadow_binding_0, shadow_binding_1, take2(0u), 0u, take(2u), take2(3u), take2(5u), take2(7u){uniforms}));"
+        "put(0u, {name}_visibility(shadow_binding_0, shadow_binding_1, take2(0u), 0u, take(2u), take2(3u), take2(5u), take2(7u)));"
     );
     run::<1>(gpu, &shadows(gpu, technique, 9), &body, rows)
 }
@@ -122,7 +122,7 @@ pub(crate) fn pcf_is_a_weighted_sum(gpu: &Gpu) {
     let error = sampler_error(gpu);
     for (kernel, taps) in [(4, Taps::Bilinear), (5, Taps::Bilinear), (4, Taps::Nearest), (5, Taps::Nearest)] {
         let pcf = technique::Pcf { kernel, taps, ..technique::Pcf::default() };
-        let found = ask(gpu, &pcf, "", &rows);
+        let found = ask(gpu, &pcf, &rows);
         let weights: Vec<f64> =
             antumbra::Kernel::new(pcf.weights, kernel, 0.0).taps.iter().map(|w| f64::from(*w)).collect();
         let sum = |comparisons: Comparisons, weights: Vec<f64>, shift: f64| -> Sum {
@@ -161,9 +161,9 @@ pub(crate) fn taps_agree(gpu: &Gpu) {
         for weights in [antumbra::Weights::Gaussian, antumbra::Weights::Box] {
             let with =
                 |taps, sigma| technique::Pcf { kernel, weights, taps, sigma, ..technique::Pcf::default() };
-            let one_by_one = ask(gpu, &with(Taps::Bilinear, 0.0), "", &facing);
+            let one_by_one = ask(gpu, &with(Taps::Bilinear, 0.0), &facing);
             for taps in [Taps::Merged, Taps::Gather] {
-                let found = ask(gpu, &with(taps, 0.0), "", &facing);
+                let found = ask(gpu, &with(taps, 0.0), &facing);
                 let differ = |a: &[[f32; 1]], b: &[[f32; 1]]| {
                     let error = sampler_error(gpu) as f32;
                     std::iter::zip(a, b).filter(|(a, b)| (a[0] - b[0]).abs() > error).count()
@@ -171,7 +171,7 @@ pub(crate) fn taps_agree(gpu: &Gpu) {
                 let count = differ(&found, &one_by_one);
                 assert!(count <= 6, "{count} rows differ for {:?}", with(taps, 0.0));
                 if kernel > 2 && weights == antumbra::Weights::Gaussian {
-                    let count = differ(&ask(gpu, &with(taps, 3.0), "", &facing), &one_by_one);
+                    let count = differ(&ask(gpu, &with(taps, 3.0), &facing), &one_by_one);
                     let least = if gpu.is_software() { 1000 } else { 200 };
                     assert!(count > least, "another kernel differs in {count} rows only");
                 }
@@ -186,7 +186,7 @@ pub(crate) fn merged_taps_follow_the_plane(gpu: &Gpu) {
     let error = sampler_error(gpu);
     for (kernel, taps) in [(5_u32, Taps::Merged), (5, Taps::Gather), (4, Taps::Gather)] {
         let pcf = technique::Pcf { kernel, taps, ..technique::Pcf::default() };
-        let found = ask(gpu, &pcf, "", &rows);
+        let found = ask(gpu, &pcf, &rows);
         let weights: Vec<f64> =
             antumbra::Kernel::new(pcf.weights, kernel, 0.0).taps.iter().map(|w| f64::from(*w)).collect();
         let sum = |comparisons: Comparisons, weights: &[f64], shift: f64| -> Sum {
@@ -228,7 +228,7 @@ pub(crate) fn merged_taps_follow_the_plane(gpu: &Gpu) {
 pub(crate) fn bicubic_is_a_convolution(gpu: &Gpu) {
     let rows = tilted_receivers(18);
     let bicubic = technique::Bicubic::default();
-    let found = ask(gpu, &bicubic, "", &rows);
+    let found = ask(gpu, &bicubic, &rows);
     let error = sampler_error(gpu);
     let sum = |scale: f64, shift: f64| -> Sum {
         let comparisons = Comparisons::new();
@@ -255,8 +255,8 @@ pub(crate) fn poisson_is_the_mean_of_its_disk(gpu: &Gpu) {
     let rows = tilted_receivers(19);
     let error = sampler_error(gpu);
     for spin in [Spin::Fixed, Spin::Noise] {
-        let poisson = technique::Poisson { points: 11, spin, ..technique::Poisson::default() };
-        let found = ask(gpu, &poisson, ", 5.0", &rows);
+        let poisson = technique::Poisson { kernel: 5.0, points: 11, spin, ..technique::Poisson::default() };
+        let found = ask(gpu, &poisson, &rows);
         let disk = technique::poisson::reference::disk(11);
         let sum = |count: usize, radius: f64, turned: bool| -> Sum {
             let (comparisons, disk) = (Comparisons::new(), disk.clone());
@@ -312,7 +312,7 @@ pub(crate) fn footprint_is_the_mean_of_its_pixel(gpu: &Gpu) {
     let error = sampler_error(gpu);
     for budget in [256_u32, 5] {
         let footprint = technique::Footprint { budget, ..technique::Footprint::default() };
-        let found = ask(gpu, &footprint, "", &rows);
+        let found = ask(gpu, &footprint, &rows);
         let sum = |budget: u32, size: f64| -> Sum {
             let comparisons = Comparisons::new();
             Box::new(move |r| {

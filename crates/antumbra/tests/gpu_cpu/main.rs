@@ -140,9 +140,9 @@ fn bilinear(u: f64, v: f64, side: usize, image: impl Fn(usize) -> f64) -> f64 {
 fn main() {
     let mut trials = Trials::default();
     trials.add_plain("every encode function is compared", || {
-        let device = Capabilities { features: wgpu::Features::empty(), limits: wgpu::Limits::default() };
+        let device = Capabilities::least();
         for technique in technique::all() {
-            for map in technique.maps(&device).unwrap() {
+            for map in technique.describe(&device).unwrap().maps {
                 let (Encode::Texel(name) | Encode::Neighbours(name)) = map.encode;
                 assert!(ENCODE_FUNCTIONS.contains(&name), "compare {name} here");
             }

@@ -1,7 +1,10 @@
 //! What sub-pixel shadow maps answer near the border of a shadow, against the border itself.
 
 use crate::common::{Random, Receiver, caster_mesh, view, visibility};
-use antumbra::{CasterMesh, CasterPass, CutoutCaster, ShadowMap, Size, Technique, technique::Coverage};
+use antumbra::{
+    CasterMesh, CasterPass, CutoutCaster, ShadowMap, Size, Technique,
+    technique::{self, Caster, Coverage},
+};
 use antumbra_testing::{Gpu, broken::Broken};
 use glam::{Vec2, Vec3};
 
@@ -13,6 +16,8 @@ const RADIUS: f32 = 18.0;
 /// Corners of the disc's border.
 const SIDES: u32 = 96;
 const RINGS: u32 = 24;
+/// Both layers of spsm like the second.
+const CENTRES: &[Coverage] = &[Coverage::Centre, Coverage::Centre];
 
 /// A place in texels on the map, as seen by `view`.
 fn placed(texels: Vec2, depth: f32) -> Vec3 {
@@ -116,11 +121,10 @@ pub(crate) fn fine_meshes(gpu: &Gpu) {
         ("dpm.keeps=12", ROOM),
     ];
     for (spec, most) in whole {
-        let share = wrong(&Broken::new(spec));
+        let share = wrong(technique::parse(spec).unwrap().as_ref());
         assert!(share < most, "{spec}: {share}");
     }
     let normal = "vec2f(cos(angle), sin(angle))";
-    let centres: &[Coverage] = &[Coverage::Centre, Coverage::Centre];
     let open = "const spsm_open: f32 = 0.28";
     let broken = [
         ("a flipped tangent", PUBLISHED, Broken::saying("spsm.layers=1", normal, &format!("-{normal}"))),
@@ -151,7 +155,11 @@ pub(crate) fn fine_meshes(gpu: &Gpu) {
             FULL,
             Broken::saying("dpm", "const dpm_open: f32 = 0.28", "const dpm_open: f32 = 2.0"),
         ),
-        ("triangles at centres", MOST, Broken { coverages: Some(centres), ..Broken::new("spsm") }),
+        (
+            "triangles at centres",
+            MOST,
+            Broken::new("spsm").with(|described| described.caster = Caster::Triangles(CENTRES)),
+        ),
     ];
     for (what, most, broken) in broken {
         let share = wrong(&broken);
@@ -186,7 +194,7 @@ pub(crate) fn sheets_count_among_closed_casters(gpu: &Gpu) {
         count(false) + count(true)
     };
     for spec in ["dpm", "dpm.keeps=2", "exact"] {
-        assert_eq!(wrong(&Broken::new(spec)), 0, "{spec}");
+        assert_eq!(wrong(technique::parse(spec).unwrap().as_ref()), 0, "{spec}");
     }
     let asks = "&& !dpm_occluded(casters, vec2i(texel), point, view, before, gain)";
     let blind = wrong(&Broken::saying("dpm.keeps=2", asks, ""));
@@ -215,7 +223,7 @@ pub(crate) fn edges_are_smooth(gpu: &Gpu) {
         let squares = places.iter().zip(found).map(|(p, v)| (v - area(p)).powi(2));
         (squares.sum::<f32>() / places.len() as f32).sqrt()
     };
-    let one = error(&Broken::new("spsm"));
+    let one = error(technique::parse("spsm").unwrap().as_ref());
     for (spec, most) in [
         ("spsm.samples=2", 0.6),
         ("spsm.samples=3", 0.4),
@@ -224,7 +232,7 @@ pub(crate) fn edges_are_smooth(gpu: &Gpu) {
         ("dpm.samples=2", 0.6),
         ("dpm.samples=4", 0.3),
     ] {
-        let found = error(&Broken::new(spec));
+        let found = error(technique::parse(spec).unwrap().as_ref());
         assert!(found < most * one, "{spec}: {found}, {one} with one sample");
     }
     let broken = [
@@ -276,9 +284,9 @@ pub(crate) fn holes_stay_open(gpu: &Gpu) {
         clear.filter(|(p, f)| (*f < 0.5) != (off(p) > 0.0)).count()
     };
     for spec in ["spsm", "spsm.layers=1", "spsm.packing=map", "dpm", "exact"] {
-        assert_eq!(wrong(&Broken::new(spec), holed), 0, "{spec}");
+        assert_eq!(wrong(technique::parse(spec).unwrap().as_ref(), holed), 0, "{spec}");
     }
-    assert!(wrong(&Broken::new("spsm"), whole) > 400, "a square without a hole");
+    assert!(wrong(technique::parse("spsm").unwrap().as_ref(), whole) > 400, "a square without a hole");
 }
 
 /// Of two triangles the first is whole and the second a single hole, whichever is drawn first.

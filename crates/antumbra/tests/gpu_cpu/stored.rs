@@ -7,7 +7,7 @@ use super::{
     comparison::{Comparisons, Sum, ask, holds, strays, tilted_receivers},
     noise, row, rows, run, shadows,
 };
-use antumbra::{Precision, Technique, technique};
+use antumbra::{Capabilities, Precision, Technique, technique};
 use antumbra_testing::Gpu;
 
 /// Four neighbours each, exactly.
@@ -67,7 +67,7 @@ pub(crate) fn stratified_is_the_mean_of_its_samples(gpu: &Gpu) {
         let body = "put(0u, stratified_visibility(shadow_binding_0, take2(0u), 0u, take(2u), take2(3u), vec2f(0.0), vec2f(0.0)));";
         let found = run::<1>(gpu, &shadows, body, &rows);
         let mean = |shift: f64, swapped: bool, dropped: usize| -> Sum {
-            let offsets = stratified.jitter();
+            let offsets = stratified.describe(&Capabilities::full()).unwrap().sample_offsets;
             let depths: Vec<Vec<f64>> = (0..64 * 64)
                 .map(|i| maps.iter().map(|map| f64::from(map(i % 64, i / 64))).collect())
                 .collect();
@@ -112,7 +112,7 @@ pub(crate) fn precision_rounds_the_map(gpu: &Gpu) {
             let near = depth((u * 64.0) as u32, (v * 64.0) as u32) + r.range(-2.0, 2.0) / steps as f32;
             row([u, v, near])
         });
-        let found = ask(gpu, &technique::Hard { precision }, "", &rows);
+        let found = ask(gpu, &technique::Hard { precision }, &rows);
         let sum = |steps: Option<f64>| -> Sum {
             let comparisons = Comparisons { steps, ..Comparisons::new() };
             Box::new(move |r| ([comparisons.nearest(r, [r[0], r[1]])], 0.0))

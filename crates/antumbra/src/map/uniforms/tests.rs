@@ -1,9 +1,10 @@
 use super::*;
-use crate::pass;
 use crate::{
     capabilities::Capabilities,
+    describe::Technique,
     light::Size,
-    shader,
+    pass,
+    shader::{Composition, MapSize, settings},
     technique::{all, parse},
 };
 use naga::{TypeInner, front::wgsl::parse_str};
@@ -21,7 +22,7 @@ fn layout(module: &naga::Module, name: &str) -> Layout {
 }
 
 /// `ShadowView` as Rust lays it out, with what follows it for a technique.
-fn rust_view(technique: &dyn Technique) -> Layout {
+fn rust_view(description: &Description) -> Layout {
     macro_rules! row {
         ($field:ident) => {{
             let zero: ShadowView = bytemuck::Zeroable::zeroed();
@@ -39,23 +40,23 @@ fn rust_view(technique: &dyn Technique) -> Layout {
         row!(reach_y),
     ];
     let base = VIEW_BYTES as u32;
-    let widths = technique.widths().into_iter().map(|(name, _)| format!("width_{name}"));
-    let blur = technique.blur().map(|_| "blur".to_string());
-    rows.extend((0..).zip(widths.chain(blur)).map(|(i, name)| (name, base + 4 * i, 4)));
-    (rows, view_bytes(technique) as u32)
+    rows.extend((0..).zip(settings::per_view(description)).map(|(i, name)| (name, base + 4 * i, 4)));
+    (rows, view_bytes(description) as u32)
 }
 
-fn device() -> Capabilities {
-    Capabilities { features: wgpu::Features::empty(), limits: wgpu::Limits::default() }
+fn composed(technique: &dyn Technique) -> Composition {
+    Composition::new(technique.describe(&Capabilities::least()).unwrap(), false).unwrap()
 }
 
-fn size(views: u32) -> shader::MapSize {
-    shader::MapSize { views, capacity: crate::Capacity::default(), splits: Default::default(), asks: false }
+/// The receiver's text for three views.
+fn receiver(composition: &Composition) -> String {
+    let size = MapSize { views: 3, capacity: crate::Capacity::default(), splits: Default::default() };
+    composition.receiver(size, 0).text()
 }
 
-fn same(wgsl: &str, technique: &dyn Technique) -> Result<(), String> {
+fn same(wgsl: &str, description: &Description) -> Result<(), String> {
     let module = parse_str(wgsl).map_err(|e| e.emit_to_string(wgsl))?;
-    let (found, expected) = (layout(&module, "ShadowView"), rust_view(technique));
+    let (found, expected) = (layout(&module, "ShadowView"), rust_view(description));
     if found == expected { Ok(()) } else { Err(format!("WGSL {found:?}, Rust {expected:?}")) }
 }
 
@@ -63,9 +64,10 @@ fn same(wgsl: &str, technique: &dyn Technique) -> Result<(), String> {
 fn the_view_is_laid_out_alike_in_rust_and_wgsl() {
     let further = ["esm.classifier=zmax", "vsm.width=0.1", "esm.classifier=zmax,width=0.1"];
     for technique in all().into_iter().chain(further.map(|spec| parse(spec).unwrap())) {
-        let technique = technique.as_ref();
-        let text = shader::receiver(technique, &device(), size(3), 0).text();
-        same(&text, technique).unwrap();
+        let composition = composed(technique.as_ref());
+        let description = &composition.description;
+        let text = receiver(&composition);
+        same(&text, description).unwrap();
         let module = parse_str(&text).unwrap();
         let stride = module
             .types
@@ -79,22 +81,22 @@ fn the_view_is_laid_out_alike_in_rust_and_wgsl() {
                 _ => None,
             })
             .unwrap();
-        assert_eq!(u64::from(stride), view_bytes(technique));
+        assert_eq!(u64::from(stride), view_bytes(description));
         // Negative controls: two members swapped, one of another type.
         let swapped = text
             .replace("near_over_far: f32, reach_x: f32", "reach_x: f32, near_over_far: f32")
             .replace("depth_plane: vec4f, to_light: vec4f", "to_light: vec4f, depth_plane: vec4f");
         assert_ne!(swapped, text);
-        same(&swapped, technique).unwrap_err();
-        same(&text.replace("to_light: vec4f", "to_light: vec2f"), technique).unwrap_err();
+        same(&swapped, description).unwrap_err();
+        same(&text.replace("to_light: vec4f", "to_light: vec2f"), description).unwrap_err();
     }
 }
 
 /// The bytes that `write` writes to the receivers' buffer.
-fn written(technique: &dyn Technique, bias: BiasTerms, size: Size, views: &[View], room: usize) -> Vec<u8> {
+fn written(description: &Description, bias: BiasTerms, size: Size, views: &[View], room: usize) -> Vec<u8> {
     let mut bytes = Vec::new();
-    let per_view = PerView::of(technique);
-    receiver_bytes(&mut bytes, views, room, [0.25, 0.125], &per_view, &scalars(technique, bias, size));
+    let per_view = PerView::of(description);
+    receiver_bytes(&mut bytes, views, room, [0.25, 0.125], &per_view, &scalars(description, bias, size));
     bytes
 }
 
@@ -128,10 +130,11 @@ fn what_is_written_lies_where_the_shader_reads_it() {
         "csm.sampling=trilinear,kernel=9,width=140",
         "poisson.kernel=31,width=1400",
     ] {
-        let technique = parse(spec).unwrap();
-        let module = parse_str(&shader::receiver(technique.as_ref(), &device(), size(3), 0).text()).unwrap();
+        let composition = composed(parse(spec).unwrap().as_ref());
+        let description = &composition.description;
+        let module = parse_str(&receiver(&composition)).unwrap();
         let (members, span) = layout(&module, "ShadowUniforms");
-        let bytes = written(technique.as_ref(), bias, Size { width: 640, height: 480 }, &[view, view], 3);
+        let bytes = written(description, bias, Size { width: 640, height: 480 }, &[view, view], 3);
         assert!(bytes.len() <= span as usize && span as usize <= bytes.len().next_multiple_of(16));
         let word = |offset: u32| -> [u8; 4] { bytes[offset as usize..][..4].try_into().unwrap() };
         let float = |offset| f32::from_ne_bytes(word(offset));
@@ -143,10 +146,10 @@ fn what_is_written_lies_where_the_shader_reads_it() {
             ("normal_offset_texels".into(), 3.5),
             ("grazing_offset_texels".into(), 5.5),
             ("receiver_plane".into(), 0.75),
-            ("constant_depth".into(), 4.5 * technique.depth_step()),
+            ("constant_depth".into(), 4.5 * description.depth_quantum),
             ("float_steps".into(), 4.5),
         ];
-        expected.extend(technique.uniforms().into_iter().map(|(n, v)| (format!("setting_{n}"), v)));
+        expected.extend(description.settings.iter().map(|(n, v)| (format!("setting_{n}"), *v)));
         assert_eq!(members[0].0, "views");
         assert_eq!(members[1].0, "view_count");
         assert_eq!(u32::from_ne_bytes(word(members[1].1)), 2);
@@ -155,7 +158,7 @@ fn what_is_written_lies_where_the_shader_reads_it() {
         assert_eq!(found, expected);
         // The second view, and the blank third.
         let (rows, _) = layout(&module, "ShadowView");
-        let base = view_bytes(technique.as_ref()) as u32;
+        let base = view_bytes(description) as u32;
         assert_eq!(float(base + 4 * 7), 7.0);
         assert_eq!(float(base + rows[1].1), 20.0);
         assert_eq!(float(base + rows[2].1), 24.0);
@@ -177,17 +180,19 @@ fn what_is_written_lies_where_the_shader_reads_it() {
 
 #[test]
 fn the_convert_settings_are_floats_in_order() {
-    for technique in all() {
-        let maps = technique.maps(&device()).unwrap();
-        let steps = pass::plan(technique.as_ref(), &device(), &maps, Size::square(64));
+    let further = ["esm.classifier=zmax", "esm.classifier=zmax,width=0.1"].map(|spec| parse(spec).unwrap());
+    for technique in all().into_iter().chain(further) {
+        let composition = composed(technique.as_ref());
+        let steps = pass::plan(&composition, &Capabilities::least(), Size::square(64));
         for step in steps.iter().filter(|s| s.source.slot == pass::Slot::Casters) {
             let module = parse_str(&step.shader).unwrap();
             let (members, _) = layout(&module, "Convert");
-            let names =
-                ["reach", "near_over_far"].into_iter().chain(technique.uniforms().into_iter().map(|u| u.0));
+            let description = &composition.description;
+            let names = ["reach", "near_over_far"].map(String::from).into_iter();
+            let names = names.chain(settings::once(description)).chain(settings::per_view(description));
             let side = 4 * MOST_SIDE as u32;
             let mut expected = vec![("side".to_string(), 0, side)];
-            expected.extend(names.zip(0..).map(|(name, i)| (name.to_string(), side + 4 * i, 4)));
+            expected.extend(names.zip(0..).map(|(name, i)| (name, side + 4 * i, 4)));
             assert_eq!(members, expected);
         }
     }

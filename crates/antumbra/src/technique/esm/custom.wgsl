@@ -1,7 +1,7 @@
 
 /// The four texels around uv, each clamped before they are interpolated: a small PCF filter on the
 /// map as it is [section 3.3].
-fn esm_custom(map: LookupMap, uv: vec2f, view: u32, depth: f32, c: f32) -> f32 {
+fn esm_custom(map: LookupMap, uv: vec2f, view: u32, depth: f32) -> f32 {
     let size = vec2f(textureDimensions(map));
     let p = uv * size - 0.5;
     let corner = floor(p);
@@ -11,7 +11,7 @@ fn esm_custom(map: LookupMap, uv: vec2f, view: u32, depth: f32, c: f32) -> f32 {
         let far = vec2f(f32(i & 1u), f32(i >> 1u));
         let texel = vec2i(clamp(corner + far, vec2f(0.0), size - 1.0));
         let share = mix(1.0 - weight, weight, far);
-        lit += share.x * share.y * min(esm_ratio(depth, textureLoad(map, texel, view, 0).x, c), 1.0);
+        lit += share.x * share.y * min(esm_ratio(depth, textureLoad(map, texel, view, 0).x), 1.0);
     }
     // Floats that sum to one may exceed it by some roundings.
     return min(lit, 1.0);

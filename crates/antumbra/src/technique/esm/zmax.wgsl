@@ -19,30 +19,30 @@ fn esm_deepest(farthest: texture_2d_array<f32>, map_sampler: sampler, uv: vec2f,
 }
 
 /// Whether any caster in the kernel lies behind the receiver by more than a product of 1 + ε allows,
-/// and by more than `offset` times what the receiver's own plane gains on the way from there: half a
+/// and by more than esm_offset times what the receiver's own plane gains on the way from there: half a
 /// kernel of finest texels and two of the level [section 3.3].
-fn esm_failed(farthest: texture_2d_array<f32>, map_sampler: sampler, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f, c: f32, epsilon: f32, offset: f32, kernel: f32) -> bool {
+fn esm_failed(farthest: texture_2d_array<f32>, map_sampler: sampler, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f) -> bool {
     let level = esm_level(farthest, view, ddx, ddy);
     let slope = dot(abs(plane), 1.0 / vec2f(textureDimensions(farthest)));
-    let reach = 0.5 * (kernel - 1.0) + 2.0 * exp2(level);
-    let allowed = log(1.0 + epsilon) / c + offset * slope * reach;
+    let reach = 0.5 * (esm_kernel(view) - 1.0) + 2.0 * exp2(level);
+    let allowed = log(1.0 + esm_epsilon()) / esm_c() + esm_offset() * slope * reach;
     return depth + allowed < esm_deepest(farthest, map_sampler, uv, view, level);
 }
 
 /// One filtered lookup, clamped to [0,1]; custom filtering where it may have failed.
-fn esm_visibility(map: LookupMap, map_sampler: sampler, farthest: texture_2d_array<f32>, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f, c: f32, epsilon: f32, offset: f32, kernel: f32) -> f32 {
-    if esm_failed(farthest, map_sampler, uv, view, depth, plane, ddx, ddy, c, epsilon, offset, kernel) {
-        return esm_custom(map, uv, view, depth, c);
+fn esm_visibility(map: LookupMap, map_sampler: sampler, farthest: texture_2d_array<f32>, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f) -> f32 {
+    if esm_failed(farthest, map_sampler, uv, view, depth, plane, ddx, ddy) {
+        return esm_custom(map, uv, view, depth);
     }
-    return min(esm_ratio(depth, lookup_filtered(map, map_sampler, uv, view, ddx, ddy).x, c), 1.0);
+    return min(esm_ratio(depth, lookup_filtered(map, map_sampler, uv, view, ddx, ddy).x), 1.0);
 }
 
 /// 1 where the assumption behind the method may be violated.
-fn esm_class(map: LookupMap, map_sampler: sampler, farthest: texture_2d_array<f32>, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f, c: f32, epsilon: f32, offset: f32, kernel: f32) -> u32 {
-    return select(0u, 1u, esm_failed(farthest, map_sampler, uv, view, depth, plane, ddx, ddy, c, epsilon, offset, kernel));
+fn esm_class(map: LookupMap, map_sampler: sampler, farthest: texture_2d_array<f32>, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f) -> u32 {
+    return select(0u, 1u, esm_failed(farthest, map_sampler, uv, view, depth, plane, ddx, ddy));
 }
 
 /// Linear depth as it is, for the map of farthest depths.
-fn esm_depth(depth: f32, layer: u32, c: f32, epsilon: f32, offset: f32) -> vec4f {
+fn esm_depth(depth: f32, layer: u32) -> vec4f {
     return vec4f(depth, 0.0, 0.0, 0.0);
 }

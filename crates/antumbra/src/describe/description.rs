@@ -1,0 +1,237 @@
+//! A technique with its settings on a device, as data.
+
+use super::{
+    About, Binding, Caster, Class, Constant, DepthSpace, Setting,
+    caster::{List, Ranked},
+    map::{Encode, Map},
+};
+use crate::{
+    bias::BiasTerms,
+    capabilities::Capabilities,
+    error::DescriptionError,
+    filter::{Filter, Values},
+    kernel::{Adaptive, Width},
+    precision::Precision,
+};
+use glam::Vec2;
+use std::borrow::Cow;
+
+/// Everything that follows from a technique and its settings on a device.
+///
+/// It is plain data: take a preset, or [`new`](Self::new), and change its fields.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Description {
+    /// What it describes.
+    pub about: About,
+    /// The technique's WGSL: the file beside the Rust file.
+    pub wgsl: Cow<'static, str>,
+    /// Files that fill the slots which the WGSL, or what it needs, leaves open, such as the lookup that the
+    /// sampling setting chooses: `lookup_fitted` fills `lookup`.
+    pub slots: Vec<&'static str>,
+    /// Compile-time settings of the WGSL.
+    pub constants: Vec<Constant>,
+    /// Run-time settings, which the WGSL reads as `x_name() -> f32`.
+    pub settings: Vec<Setting>,
+    /// Kernel widths in texels, which the WGSL reads as `x_name(view: u32) -> f32`: each view has its own.
+    pub widths: Vec<(&'static str, Width)>,
+    /// The blur of the maps, if the WGSL asks `shadow_blur(view: u32) -> f32` for its variance in a
+    /// view, in squares of texels.
+    pub blur: Option<Adaptive>,
+    /// What the casters leave.
+    pub caster: Caster,
+    /// Where within a texel the casters are sampled: one caster pass per view for each offset, in texels
+    /// from the centre, y down. Several passes fill the channels of the first map in turn, layer by
+    /// layer, each with what the encode function makes of its depth.
+    pub sample_offsets: Vec<Vec2>,
+    /// The textures that it keeps; none where receivers compare the casters' own depth.
+    pub maps: Vec<Map>,
+    /// What the visibility function reads, in parameter order.
+    pub bindings: Vec<Binding>,
+    /// The depth that the visibility function compares.
+    pub depth_space: DepthSpace,
+    /// Step in which depth is stored, as a share of the depth range; 0 for floats.
+    pub depth_quantum: f32,
+    /// What [`Bias::Auto`](crate::technique::Bias::Auto) stands for.
+    pub bias: BiasTerms,
+    /// Half the width of the kernel: how far outside a point's own texel a lookup may read, in
+    /// texels. Views leave that much margin.
+    pub filter_radius_texels: f32,
+    /// Kinds of pixels that it tells apart. If there are any, the WGSL also defines `x_class`, with
+    /// the parameters of `x_visibility`, which returns 0 (none of them) or 1 + the index here, and
+    /// [`ShadowMap::wgsl`](crate::ShadowMap::wgsl) gives `shadow_class`.
+    pub classes: &'static [Class],
+    /// Largest error that ringing and quantisation leave where the shadow test is clear-cut: the
+    /// visibility deep behind a full blocker is at most this, in the open at least one minus this.
+    pub ringing: f32,
+    /// Texture fetches of the visibility function for a pixel that its filters do not stretch; an
+    /// interpolated one counts once. What a pixel costs on hardware that is bound by them.
+    pub fetches: u32,
+    /// What it does otherwise than set because the device cannot, one sentence each, for
+    /// [`ShadowMap::explain`](crate::ShadowMap::explain).
+    pub notes: Vec<String>,
+}
+
+impl Description {
+    /// Casters leave depth, nothing is kept of it or read, and one fetch is counted.
+    #[must_use]
+    pub fn new(about: About, wgsl: impl Into<Cow<'static, str>>) -> Self {
+        Self {
+            about,
+            wgsl: wgsl.into(),
+            slots: Vec::new(),
+            constants: Vec::new(),
+            settings: Vec::new(),
+            widths: Vec::new(),
+            blur: None,
+            caster: Caster::Depth,
+            sample_offsets: vec![Vec2::ZERO],
+            maps: Vec::new(),
+            bindings: Vec::new(),
+            depth_space: DepthSpace::Linear,
+            depth_quantum: 0.0,
+            bias: BiasTerms::NONE,
+            filter_radius_texels: 0.5,
+            classes: &[],
+            ringing: 0.0,
+            fetches: 1,
+            notes: Vec::new(),
+        }
+    }
+
+    /// Compares the casters' own depth through a comparison sampler: [`Binding::Depth`] and
+    /// [`Binding::Compare`], with `reference_depth` of such a precision in the slot `reference`.
+    ///
+    /// Bias and filter radius are those of a single lookup.
+    #[must_use]
+    pub fn comparison(
+        about: About,
+        wgsl: impl Into<Cow<'static, str>>,
+        filter: wgpu::FilterMode,
+        precision: Precision,
+    ) -> Self {
+        let (bias, filter_radius_texels) = match filter {
+            wgpu::FilterMode::Nearest => (BiasTerms::TEXELS, 0.5),
+            wgpu::FilterMode::Linear => (BiasTerms::FOURS, 1.0),
+        };
+        Self {
+            slots: vec![precision.slot()],
+            constants: precision.constants(),
+            bindings: vec![Binding::Depth, Binding::Compare(filter)],
+            depth_space: DepthSpace::Raster,
+            depth_quantum: precision.step(),
+            bias,
+            filter_radius_texels,
+            ..Self::new(about, wgsl)
+        }
+    }
+
+    /// Keeps one map of depths and compares them itself: [`Binding::Map`], with `reference_depth` as in
+    /// [`comparison`](Self::comparison). Depth is linear.
+    #[must_use]
+    pub fn stored_depth(
+        about: About,
+        wgsl: impl Into<Cow<'static, str>>,
+        (name, layers, encode): (&'static str, u32, Encode),
+        precision: Precision,
+        device: &Capabilities,
+    ) -> Self {
+        let (format, note) = precision.rgba(device);
+        Self {
+            maps: vec![Map { layers, ..Map::new(name, format, encode) }],
+            bindings: vec![Binding::Map(0)],
+            depth_space: DepthSpace::Linear,
+            notes: note.into_iter().collect(),
+            ..Self::comparison(about, wgsl, wgpu::FilterMode::Nearest, precision)
+        }
+    }
+
+    /// Keeps one map of such values that is filtered before receivers read it: [`Binding::Map`] and
+    /// [`Binding::Sampler`], with `lookup_filtered` as set in the slot `lookup`.
+    #[must_use]
+    pub fn filtered(
+        about: About,
+        wgsl: impl Into<Cow<'static, str>>,
+        filter: &Filter,
+        values: Values,
+        device: &Capabilities,
+    ) -> Self {
+        Self {
+            slots: filter.slots(&values, device),
+            constants: filter.constants(&values),
+            blur: filter.adapted(),
+            bindings: vec![Binding::Map(0), Binding::Sampler],
+            filter_radius_texels: filter.filter_radius_texels(),
+            fetches: filter.fetches(&values),
+            maps: vec![filter.map(&values, device)],
+            notes: filter.notes(values),
+            ..Self::new(about, wgsl)
+        }
+    }
+
+    /// Keeps triangles as such a caster leaves them, and reads all that it leaves: a map of whole numbers, the
+    /// textures of lists, or the depth and buffers of ranked triangles. Depth is projected, in which triangles
+    /// are planes under any light.
+    #[must_use]
+    pub fn triangles(about: About, wgsl: impl Into<Cow<'static, str>>, caster: Caster) -> Self {
+        let kept = Self { caster, depth_space: DepthSpace::Raster, ..Self::new(about, wgsl) };
+        // Distance of 32-bit floats below 1, where a spot's projected depths crowd.
+        let rays = |kept| Self { bias: BiasTerms::RAYS, depth_quantum: f32::EPSILON / 2.0, ..kept };
+        match caster {
+            Caster::Depth => Self { bindings: vec![Binding::Depth], ..kept },
+            Caster::Triangles(layers) => {
+                let encode = Encode::Texel("packing_texel");
+                let map = Map::new("triangles", wgpu::TextureFormat::Rgba32Uint, encode);
+                Self {
+                    maps: vec![Map { layers: layers.len() as u32, ..map }],
+                    bindings: vec![Binding::Map(0)],
+                    bias: BiasTerms { constant_texels: 0.05, slope_texels: 0.05, ..BiasTerms::NONE },
+                    ..kept
+                }
+            }
+            Caster::Lists => {
+                let bindings = [List::Ranges, List::Numbers, List::Corners].map(Binding::List).to_vec();
+                rays(Self { bindings, ..kept })
+            }
+            Caster::Ranked { .. } => {
+                let [keys, corners] = [Ranked::Keys, Ranked::Corners].map(Binding::Ranked);
+                rays(Self { bindings: vec![Binding::Depth, keys, corners], ..kept })
+            }
+        }
+    }
+
+    /// Free texels that a view should leave on each side.
+    #[must_use]
+    pub fn margin_texels(&self) -> f32 {
+        self.filter_radius_texels.ceil() + 1.0
+    }
+
+    /// Whether receivers compare the casters' own depth.
+    pub(crate) fn reads_depth(&self) -> bool {
+        self.bindings.contains(&Binding::Depth)
+    }
+
+    /// Whether its parts agree.
+    pub(crate) fn check(&self) -> Result<(), DescriptionError> {
+        if self.sample_offsets.is_empty() {
+            return Err(DescriptionError::SampleOffsets);
+        }
+        for binding in &self.bindings {
+            let (there, needed) = match binding {
+                Binding::Map(i) => (*i < self.maps.len(), "that many maps"),
+                Binding::List(_) => (self.caster == Caster::Lists, "Caster::Lists"),
+                Binding::Ranked(_) => (matches!(self.caster, Caster::Ranked { .. }), "Caster::Ranked"),
+                Binding::Depth | Binding::Compare(_) | Binding::Sampler => continue,
+            };
+            if !there {
+                return Err(DescriptionError::Binding { binding: format!("{binding:?}"), needed });
+            }
+        }
+        // Four passes share a layer.
+        let (passes, layers) = (self.sample_offsets.len(), self.maps.first().map_or(0, |map| map.layers));
+        if passes > 1 && passes.div_ceil(4) > layers as usize {
+            return Err(DescriptionError::Layers { passes, layers });
+        }
+        Ok(())
+    }
+}

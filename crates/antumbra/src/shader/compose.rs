@@ -1,0 +1,163 @@
+//! Puts a technique's WGSL together: its file, the shared files that it needs, its constants.
+
+use super::{
+    ShaderText, files,
+    settings::{self, Reader},
+    unroll,
+};
+use crate::{
+    capabilities::Capabilities,
+    describe::{Constant, Description, Technique},
+    error::{DescriptionError, Unsupported},
+    map::Options,
+};
+
+/// Ends lines that are for cut-outs alone.
+pub(super) const CUT_OUTS: &str = "// cut-outs";
+
+/// A description whose WGSL is put together: what all passes and receivers are written from.
+#[derive(Debug)]
+pub(crate) struct Composition {
+    pub(crate) description: Description,
+    /// Whether lookups ask about cut-outs.
+    pub(crate) asks: bool,
+    /// The technique's file and all that it needs, needs first, without what is for cut-outs alone.
+    library: ShaderText,
+    /// All that lookups take but for what is bound.
+    pub(super) looked_up: ShaderText,
+}
+
+impl Composition {
+    /// Describes a technique and puts its WGSL together.
+    ///
+    /// # Errors
+    /// What [`Technique::describe`] says, or [`Unsupported::Description`].
+    pub(crate) fn of(
+        technique: &dyn Technique,
+        device: &Capabilities,
+        options: &Options,
+    ) -> Result<Self, Unsupported> {
+        let description = technique.describe(device)?;
+        let asks = options.cutouts && description.caster.keeps_ids();
+        Self::new(description, asks)
+    }
+
+    /// Puts the WGSL of a description together.
+    ///
+    /// # Errors
+    /// [`Unsupported::Description`].
+    pub(crate) fn new(description: Description, asks: bool) -> Result<Self, Unsupported> {
+        let wrong = |error| Unsupported::Description { technique: description.about.name.into(), error };
+        description.check().map_err(wrong)?;
+        let library = ShaderText::library(&description, false).map_err(wrong)?;
+        let mut looked_up =
+            if asks { ShaderText::library(&description, true).map_err(wrong)? } else { library.clone() };
+        looked_up.add(&["receiver"]);
+        if asks {
+            looked_up.add(&["record"]);
+            looked_up.push("shadow_stops", include_str!("stops.wgsl.in"));
+        }
+        Ok(Self { description, asks, library, looked_up })
+    }
+
+    /// The technique's functions for the passes between casting and lighting, which read settings from
+    /// `convert`.
+    pub(crate) fn for_convert(&self) -> String {
+        self.library.text() + &settings::accessors(&self.description, Reader::Convert)
+    }
+
+    /// The technique's functions for passes that bind nothing of the library's.
+    pub(crate) fn alone(&self) -> ShaderText {
+        let mut shader = self.library.clone();
+        shader.push("settings", &settings::accessors(&self.description, Reader::Alone));
+        shader
+    }
+}
+
+impl ShaderText {
+    /// The technique's own file and all that it needs, constants replaced. `asks` says whether it has what is
+    /// for cut-outs.
+    fn library(description: &Description, asks: bool) -> Result<Self, DescriptionError> {
+        let Description { about, wgsl, slots, constants, .. } = description;
+        let mut shader = Self::of("raster", slots)?;
+        shader.need_all(wgsl, slots)?;
+        // Empty lines instead of those left out, so that line numbers stay right.
+        let line = |line| if asks || !str::contains(line, CUT_OUTS) { line } else { "" };
+        let text: String = wgsl.lines().flat_map(|l| [line(l), "\n"]).collect();
+        shader.push(about.name, &text);
+        constants.iter().try_for_each(|constant| shader.replace(constant))?;
+        shader.unroll()?;
+        Ok(shader)
+    }
+
+    /// A shared file with all that it needs.
+    pub(super) fn of(stem: &str, slots: &[&str]) -> Result<Self, DescriptionError> {
+        let mut shader = Self { pieces: Vec::new() };
+        shader.need(stem, slots)?;
+        Ok(shader)
+    }
+
+    /// Adds shared files that exist and leave no slot open.
+    pub(super) fn add(&mut self, stems: &[&str]) {
+        for stem in stems {
+            let added = self.need(stem, &[]);
+            debug_assert!(added.is_ok(), "{added:?}");
+        }
+    }
+
+    pub(super) fn push(&mut self, name: &str, text: &str) {
+        let end = if text.is_empty() || text.ends_with('\n') { "" } else { "\n" };
+        self.pieces.push((format!("{name}.wgsl"), format!("{text}{end}")));
+    }
+
+    fn need_all(&mut self, text: &str, slots: &[&str]) -> Result<(), DescriptionError> {
+        let needs = text.lines().next().and_then(|line| line.strip_prefix("//! needs ")).unwrap_or_default();
+        needs.split_whitespace().try_for_each(|stem| self.need(stem, slots))
+    }
+
+    fn need(&mut self, stem: &str, slots: &[&str]) -> Result<(), DescriptionError> {
+        let slot = format!("{stem}_");
+        let stem = slots.iter().find(|file| file.starts_with(&slot)).copied().unwrap_or(stem);
+        let name = format!("{stem}.wgsl");
+        if self.pieces.iter().any(|(n, _)| *n == name) {
+            return Ok(());
+        }
+        let text = files::text(stem).ok_or_else(|| files::missing(stem))?;
+        self.need_all(text, slots)?;
+        self.push(stem, text);
+        Ok(())
+    }
+
+    /// Writes the loops out that say so.
+    fn unroll(&mut self) -> Result<(), DescriptionError> {
+        let all = self.text();
+        let count = |name: &str| {
+            let value = all.lines().find_map(|l| l.strip_prefix(&format!("const {name}: u32 = ")))?;
+            value.trim_end_matches([';', 'u']).parse().ok()
+        };
+        for (_, text) in &mut self.pieces {
+            *text = unroll::unroll(text, count)?;
+        }
+        Ok(())
+    }
+
+    /// Replaces the one-line declaration of a constant.
+    fn replace(&mut self, constant: &Constant) -> Result<(), DescriptionError> {
+        let (name, declaration) = (constant.name(), constant.declaration());
+        let starts = [format!("const {name} "), format!("const {name}:")];
+        let mut found = 0;
+        for (_, text) in &mut self.pieces {
+            *text = text
+                .split_inclusive('\n')
+                .map(|line| match starts.iter().any(|s| line.starts_with(s)) {
+                    true => {
+                        found += 1;
+                        format!("{declaration}\n")
+                    }
+                    false => line.to_string(),
+                })
+                .collect();
+        }
+        if found == 1 { Ok(()) } else { Err(DescriptionError::Constant { name: name.into(), found }) }
+    }
+}

@@ -1,0 +1,157 @@
+//! What receivers call: `shadow_visibility`, and the uniforms and bindings behind it.
+
+use super::{
+    ShaderText,
+    compose::Composition,
+    settings::{self, Reader},
+    split::Splits,
+};
+use crate::{
+    describe::{Binding, DepthSpace, Description, Family, List, Map, Ranked},
+    map::Capacity,
+};
+use std::fmt::Write;
+
+/// What projecting, interpolating and storing as a float do to a projected depth: eight units in the
+/// last place from ½ to 1.
+const ROUNDING: &str = "4.8e-7";
+
+/// What generated text needs to know of a map's size.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct MapSize {
+    pub(crate) views: u32,
+    pub(crate) capacity: Capacity,
+    pub(crate) splits: Splits,
+}
+
+impl Composition {
+    /// `shadow_visibility` and everything it needs, bound in `group`; it may call the user's
+    /// `shadow_covers` about cut-outs.
+    pub(crate) fn receiver(&self, size: MapSize, group: u32) -> ShaderText {
+        let description = &self.description;
+        let mut glue = uniforms(description, size.views, group);
+        glue += &settings::accessors(description, Reader::Receiver);
+        let arguments = bindings(&mut glue, self, size, group);
+        glue += &function(description, &arguments, "visibility", ["f32", "1.0"]);
+        if !description.classes.is_empty() {
+            glue += &function(description, &arguments, "class", ["u32", "0u"]);
+        }
+        let mut shader = self.looked_up.clone();
+        shader.push("shadow_visibility", &glue);
+        shader
+    }
+}
+
+/// The structs of uniforms, which `map/uniforms.rs` fills.
+fn uniforms(description: &Description, views: u32, group: u32) -> String {
+    let per_view: String = settings::per_view(description).map(|name| format!(", {name}: f32")).collect();
+    let once: String = settings::once(description).map(|name| format!("    {name}: f32,\n")).collect();
+    format!(
+        "struct ShadowView {{ clip_from_world: mat4x4f, depth_plane: vec4f, to_light: vec4f, texel_world: f32, near_over_far: f32, reach_x: f32, reach_y: f32{per_view} }}\n\
+         struct ShadowUniforms {{\n    views: array<ShadowView, {views}>,\n    view_count: u32, width: f32, height: f32,\n    constant_texels: f32, slope_texels: f32, normal_offset_texels: f32, grazing_offset_texels: f32,\n    receiver_plane: f32, constant_depth: f32, float_steps: f32,\n{once}}}\n\
+         @group({group}) @binding(0) var<uniform> shadow: ShadowUniforms;\n"
+    )
+}
+
+/// Declares all bindings, with the functions that read buffers; the arguments that textures and samplers are.
+fn bindings(glue: &mut String, composition: &Composition, size: MapSize, group: u32) -> String {
+    let Description { bindings, maps, .. } = &composition.description;
+    let mut arguments = String::new();
+    // Further buffers of split arrays come behind all bindings.
+    let mut more = bindings.len() as u32;
+    for (i, binding) in bindings.iter().enumerate() {
+        let name = format!("shadow_binding_{i}");
+        if let Binding::Ranked(ranked) = binding {
+            let (split, of) = match ranked {
+                Ranked::Keys => (size.splits.keys, "u32"),
+                Ranked::Corners => (size.splits.corners, "vec4f"),
+            };
+            *glue += &split.declared(&name, "read", of, group, |k| match k {
+                0 => i as u32 + 1,
+                k => more + k,
+            });
+            more += split.count() - 1;
+            *glue += &buffer_accessors(*ranked, &name, size, composition.asks);
+            continue;
+        }
+        let ty = wgsl_type(*binding, maps);
+        let _ = writeln!(glue, "@group({group}) @binding({}) var {name}: {ty};", i + 1);
+        let _ = write!(arguments, "{name}, ");
+    }
+    arguments
+}
+
+/// `shadow_visibility` or `shadow_class`, with its type and what it is where there is no view.
+fn function(description: &Description, arguments: &str, kind: &str, [result, outside]: [&str; 2]) -> String {
+    let name = description.about.name;
+    let (depth, slopes, scale, rounding) = match description.depth_space {
+        DepthSpace::Raster => {
+            ("ndc.z", "vec2f(s.z, t.z)", "raster_slope(linear, (*light).near_over_far)", ROUNDING.to_string())
+        }
+        DepthSpace::Linear => (
+            "linear",
+            "vec2f(dot((*light).depth_plane.xyz, tangent), dot((*light).depth_plane.xyz, bitangent))",
+            "1.0",
+            format!("{ROUNDING} / raster_slope(linear, (*light).near_over_far)"),
+        ),
+    };
+    // Other families do not compare texels one by one: what they do with the plane is no bias.
+    let followed = match description.about.family {
+        Family::Comparison => "receiver_followed(plane, shadow.receiver_plane, diagonal)",
+        Family::Basis | Family::Geometry => "plane",
+    };
+    let call = format!("{name}_{kind}({arguments}uv, view, depth, {followed}, gradient_x, gradient_y)");
+    include_str!("visibility.wgsl.in")
+        .replace("{kind}", kind)
+        .replace("{result}", result)
+        .replace("{outside}", outside)
+        .replace("{depth}", depth)
+        .replace("{slopes}", slopes)
+        .replace("{scale}", scale)
+        .replace("{rounding}", &rounding)
+        .replace("{call}", &call)
+}
+
+/// WGSL type of a binding.
+fn wgsl_type(binding: Binding, maps: &[Map]) -> &'static str {
+    match binding {
+        Binding::Depth => "texture_depth_2d_array",
+        Binding::Compare(_) => "sampler_comparison",
+        Binding::Map(i) if maps.get(i).is_some_and(Map::holds_integers) => "texture_2d_array<u32>",
+        Binding::Map(_) | Binding::List(List::Corners) => "texture_2d_array<f32>",
+        Binding::List(List::Ranges | List::Numbers) => "texture_2d_array<u32>",
+        Binding::Sampler => "sampler",
+        // Declared by `Split`.
+        Binding::Ranked(_) => "array<vec4f>",
+    }
+}
+
+/// The functions through which a technique reads a buffer, which WGSL cannot pass on.
+pub(super) fn buffer_accessors(ranked: Ranked, name: &str, size: MapSize, asks: bool) -> String {
+    let Capacity { triangles, .. } = size.capacity;
+    match ranked {
+        Ranked::Keys => format!(
+            "fn shadow_key(i: u32) -> u32 {{ {} }}\n\
+             fn shadow_key_bits() -> u32 {{ return {}u; }}\n\
+             fn shadow_near_over_far(view: u32) -> f32 {{ return shadow.views[view].near_over_far; }}\n",
+            size.splits.keys.chosen(name, |buffer, i| format!("return {buffer}[{i}];")),
+            size.capacity.id_bits()
+        ),
+        Ranked::Corners if asks => format!(
+            "fn shadow_vertex(i: u32, corner: u32) -> vec4f {{ {} }}\n\
+             fn shadow_corner(view: u32, triangle: u32, corner: u32) -> vec3f {{ \
+             return shadow_vertex(view * {triangles}u + triangle, corner).xyz; }}\n\
+             fn shadow_has_holes(view: u32, triangle: u32) -> bool {{ \
+             return shadow_vertex(view * {triangles}u + triangle, 0u).w != 0.0; }}\n\
+             fn shadow_record(view: u32, triangle: u32, corner: u32) -> vec4f {{ \
+             return shadow_vertex({}u + view * {triangles}u + triangle, corner); }}\n",
+            size.splits.corners.chosen(name, |buffer, i| format!("return {buffer}[3u * {i} + corner];")),
+            size.splits.corners.elements / 2
+        ),
+        Ranked::Corners => format!(
+            "fn shadow_corner(view: u32, triangle: u32, corner: u32) -> vec3f {{ \
+             let i = view * {triangles}u + triangle; {} }}\n",
+            size.splits.corners.chosen(name, |buffer, i| format!("return {buffer}[3u * {i} + corner].xyz;"))
+        ),
+    }
+}

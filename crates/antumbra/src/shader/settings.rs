@@ -1,0 +1,52 @@
+//! The settings of a technique in WGSL: members of uniform structs, and the functions that read them.
+
+use crate::describe::Description;
+
+/// Where a text finds the settings.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Reader {
+    /// In the receiver's uniforms, those of all views.
+    Receiver,
+    /// In the uniforms of the passes between casting and lighting, those of one view.
+    Convert,
+    /// Nowhere: as numbers in the text, kernels at their widest. For texts that look nothing up.
+    Alone,
+}
+
+/// Names of the members that all views share.
+pub(crate) fn once(description: &Description) -> impl Iterator<Item = String> {
+    description.settings.iter().map(|(name, _)| format!("setting_{name}"))
+}
+
+/// Names of the members that each view has: widths of kernels in texels, the variance of the blur.
+pub(crate) fn per_view(description: &Description) -> impl Iterator<Item = String> {
+    let widths = description.widths.iter().map(|(name, _)| format!("width_{name}"));
+    widths.chain(description.blur.map(|_| "blur".into()))
+}
+
+/// The functions through which the WGSL of a technique named `x` reads them: `x_setting() -> f32`,
+/// `x_width(view: u32) -> f32` and `shadow_blur(view: u32) -> f32`.
+pub(crate) fn accessors(description: &Description, reader: Reader) -> String {
+    let technique = description.about.name;
+    let once = description.settings.iter().zip(once(description)).map(|((name, value), member)| {
+        let read = match reader {
+            Reader::Receiver => format!("shadow.{member}"),
+            Reader::Convert => format!("convert.{member}"),
+            Reader::Alone => format!("{value:?}"),
+        };
+        format!("fn {technique}_{name}() -> f32 {{ return {read}; }}\n")
+    });
+    let names = description.widths.iter().map(|(name, _)| format!("{technique}_{name}"));
+    let widest = description.widths.iter().map(|(_, width)| width.texels);
+    let blur = description.blur.map(|blur| ("shadow_blur".to_string(), blur.variance(0.0)));
+    let per_view =
+        names.zip(widest).chain(blur).zip(per_view(description)).map(|((name, widest), member)| {
+            let read = match reader {
+                Reader::Receiver => format!("shadow.views[view].{member}"),
+                Reader::Convert => format!("convert.{member}"),
+                Reader::Alone => format!("{widest:?}"),
+            };
+            format!("fn {name}(view: u32) -> f32 {{ return {read}; }}\n")
+        });
+    once.chain(per_view).collect()
+}
