@@ -67,7 +67,7 @@ fn leaf(matrix: Mat4, folds: f32) -> Mesh {
     let at = |i: u32, side: f32| {
         let along = i as f32 / RIBS as f32;
         let half = side * 0.25 * (std::f32::consts::PI * (0.05 + 0.9 * along)).sin();
-        let rib = if i % 2 == 0 { folds } else { 0.0 };
+        let rib = if i.is_multiple_of(2) { folds } else { 0.0 };
         // Ribs run forward from the middle.
         Vec3::new(along + 0.4 * half.abs(), 0.3 * half.abs() + rib * side.abs(), half)
     };
