@@ -8,6 +8,7 @@ mod names;
 mod output;
 mod progress;
 mod scene;
+mod scene_arguments;
 mod techniques;
 #[cfg(test)]
 mod tests;

@@ -1,9 +1,10 @@
 //! From arguments to triangles, a camera and a light.
 
 use crate::{
-    arguments::{Arrangement, SceneArguments, ViewArguments},
     file_arguments::FileArguments,
-    names, views,
+    names,
+    scene_arguments::{Arrangement, SceneArguments, ViewArguments},
+    views,
 };
 use antumbra::technique::Bias;
 use antumbra_lab::{default_view, shot::Shot};

@@ -14,9 +14,12 @@ fn main() {
     let mut trials = Trials::default();
     files(&mut trials);
     settings(&mut trials);
+    numbers(&mut trials);
     views(&mut trials);
     outputs(&mut trials);
     odd_but_good(&mut trials);
+    odd_files(&mut trials);
+    odd_ends(&mut trials);
     trials.add_plain("no_adapter_tells_how_to_install_one", no_adapter);
     trials.run();
 }
@@ -120,6 +123,9 @@ fn settings(trials: &mut Trials) {
         folder.run(&several).refusal(&["--technique all", "one technique"]);
         assert_eq!(folder.names().len(), 0);
     });
+}
+
+fn numbers(trials: &mut Trials) {
     let numbers: &[(&[&str], &[&str])] = &[
         (&["--size", "0"], &["--size 0", "at least 1"]),
         (&["--size=-1"], &["-1", "--size"]),
@@ -279,6 +285,10 @@ fn odd_but_good(trials: &mut Trials) {
             assert!(technique["scores"]["hard"]["pixel_match"].as_f64().unwrap() > 0.95, "{technique}");
         }
     });
+}
+
+/// What files say or are is taken as far as it can be, and never in silence.
+fn odd_files(trials: &mut Trials) {
     trials.add("what_the_importer_changed_is_said", |_| {
         let folder = Folder::new();
         let blend = |d: &mut serde_json::Value| {
@@ -319,6 +329,10 @@ fn odd_but_good(trials: &mut Trials) {
         assert_eq!(answer.code, Some(0), "{}", answer.err);
         assert!(answer.err.starts_with("note: ") && answer.err.contains("90.0° is narrowed to 84.8°"));
     });
+}
+
+/// Sizes and names at the ends of what there is.
+fn odd_ends(trials: &mut Trials) {
     trials.add("scenes_of_extreme_size", |_| {
         for scale in [1e-30_f32, 1e-12, 1e12, 1e18, 1e30] {
             let folder = Folder::new();

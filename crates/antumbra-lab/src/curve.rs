@@ -137,19 +137,40 @@ fn ask(
     encoder: &mut wgpu::CommandEncoder,
 ) -> wgpu::Buffer {
     use wgpu::BufferUsages as Usage;
-    let device = &gpu.device;
     let source = gpu.buffer("receivers", bytemuck::cast_slice(receivers), Usage::STORAGE);
-    let buffer = |label, usage| {
-        let size = source.size();
-        device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some(label),
-            size,
+    let buffer = |usage| {
+        gpu.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("answers"),
+            size: source.size(),
             usage,
             mapped_at_creation: false,
         })
     };
-    let target = buffer("answers", Usage::STORAGE | Usage::COPY_SRC);
-    let answers = buffer("answers", Usage::MAP_READ | Usage::COPY_DST);
+    let target = buffer(Usage::STORAGE | Usage::COPY_SRC);
+    let answers = buffer(Usage::MAP_READ | Usage::COPY_DST);
+    let (pipeline, layout) = question(gpu, shadows);
+    let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some("curve"),
+        layout: &layout,
+        entries: &[
+            wgpu::BindGroupEntry { binding: 0, resource: source.as_entire_binding() },
+            wgpu::BindGroupEntry { binding: 1, resource: target.as_entire_binding() },
+        ],
+    });
+    {
+        let mut pass = encoder.begin_compute_pass(&Default::default());
+        pass.set_pipeline(&pipeline);
+        pass.set_bind_group(0, shadows.bind_group(), &[]);
+        pass.set_bind_group(1, &group, &[]);
+        pass.dispatch_workgroups(receivers.len().div_ceil(64) as u32, 1, 1);
+    }
+    encoder.copy_buffer_to_buffer(&target, 0, &answers, 0, target.size());
+    answers
+}
+
+/// The pipeline that asks a map, and the layout of its own group: questions and answers.
+fn question(gpu: &Gpu, shadows: &ShadowMap) -> (wgpu::ComputePipeline, wgpu::BindGroupLayout) {
+    let device = &gpu.device;
     let entry = |binding, read_only| wgpu::BindGroupLayoutEntry {
         binding,
         visibility: wgpu::ShaderStages::COMPUTE,
@@ -178,21 +199,5 @@ fn ask(
         compilation_options: Default::default(),
         cache: None,
     });
-    let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: Some("curve"),
-        layout: &own,
-        entries: &[
-            wgpu::BindGroupEntry { binding: 0, resource: source.as_entire_binding() },
-            wgpu::BindGroupEntry { binding: 1, resource: target.as_entire_binding() },
-        ],
-    });
-    {
-        let mut pass = encoder.begin_compute_pass(&Default::default());
-        pass.set_pipeline(&pipeline);
-        pass.set_bind_group(0, shadows.bind_group(), &[]);
-        pass.set_bind_group(1, &group, &[]);
-        pass.dispatch_workgroups(receivers.len().div_ceil(64) as u32, 1, 1);
-    }
-    encoder.copy_buffer_to_buffer(&target, 0, &answers, 0, target.size());
-    answers
+    (pipeline, own)
 }

@@ -66,59 +66,68 @@ fn main() {
         let results = run(gpu, &request("contact", Path::Recede, &["hard", "csm.terms=4"]));
         assert!(results.techniques.iter().all(|t| t.promise == Promise::ScreenSpace));
     });
-    trials.add("a_scene_that_looks_elsewhere_draws_what_a_new_one_draws", |gpu| {
-        let (gpu, own) = (adopt(gpu), request("spheres", Path::Both, &[]));
-        let frames = Path::Both.frames(&own.shot.camera, &own.shot.light, 2).unwrap();
-        let upload = |camera: &Camera, light| {
-            GpuScene::new(&gpu, &own.shot.geometry, camera, light, own.shot.resolution).unwrap()
-        };
-        let draw = |scene: &GpuScene| {
-            let mut encoder = gpu.device.create_command_encoder(&Default::default());
-            scene.encode_surfaces(&mut encoder, None);
-            gpu.finish(encoder).unwrap();
-            readback::positions(&gpu, scene.surfaces()).unwrap()
-        };
-        let mut moved = upload(&frames[0].camera, &frames[0].light);
-        let before = draw(&moved);
-        let there = upload(&frames[1].camera, &frames[1].light);
-        let Frame { camera, light } = frames[1];
-        assert_eq!(moved.camera_matrix_of(&own.shot.geometry, &camera, &light), there.camera_matrix());
-        moved.look(&gpu, &own.shot.geometry, &camera, &light);
-        assert_eq!(moved.camera_matrix(), there.camera_matrix());
-        assert!(draw(&moved) == draw(&there) && draw(&moved) != before);
-    });
-    trials.add("bad_requests_are_refused_by_name", |gpu| {
-        let good = || request("contact", Path::Both, &["hard"]);
-        let refused = |request: Request, words: &str| {
-            let error = flicker::measure(&adopt(gpu), &request, &NoProgress).unwrap_err();
-            assert!(format!("{error:#}").contains(words), "{error:#}");
-        };
-        refused(Request { frames: 1, ..good() }, "1 frames show no motion");
-        refused(Request { frames: 0, ..good() }, "allowed are 2 to 10000");
-        refused(Request { until: 6, ..good() }, "6 measured frames: allowed are 2 to the 5");
-        refused(Request { until: 1, ..good() }, "1 measured frames");
-        refused(Request { stride: 0, ..good() }, "a stride of 0 pixels");
-        refused(Request { stride: 73, ..good() }, "allowed are 1 to 72");
-        refused(Request { techniques: Vec::new(), ..good() }, "no technique");
-    });
-    trials.add("the_page_is_whole_and_stands_alone", |gpu| {
-        let outcome = measure(gpu, &request("contact", Path::Both, &["hard", "esm"]));
-        let folder = std::env::temp_dir().join(format!("antumbra-flicker-{}", std::process::id()));
-        for _ in 0..2 {
-            flicker::write(&outcome, &folder).unwrap();
-        }
-        let page = std::fs::read_to_string(folder.join("index.html")).unwrap();
-        let data = std::fs::read_to_string(folder.join("flicker.json")).unwrap();
-        std::fs::remove_dir_all(&folder).unwrap();
-        let read: Results = serde_json::from_str(&data).unwrap();
-        assert_eq!(read.techniques.len(), 2);
-        for file in ["index.html", "film.png", "strip.png", "row.png", "hard-heat.png"] {
-            assert!(read.files.iter().any(|name| name == file), "{file}: {:?}", read.files);
-        }
-        assert_eq!(page.matches("data:image/png;base64,").count(), 5);
-        assert!(!page.contains("src=\"http") && !page.contains("{{"));
-    });
+    trials.add("a_scene_that_looks_elsewhere_draws_what_a_new_one_draws", elsewhere);
+    trials.add("bad_requests_are_refused_by_name", bad_requests);
+    trials.add("the_page_is_whole_and_stands_alone", page);
     trials.run();
+}
+
+/// A scene that looks elsewhere draws what a new one draws.
+fn elsewhere(gpu: &antumbra_testing::Gpu) {
+    let (gpu, own) = (adopt(gpu), request("spheres", Path::Both, &[]));
+    let frames = Path::Both.frames(&own.shot.camera, &own.shot.light, 2).unwrap();
+    let upload = |camera: &Camera, light| {
+        GpuScene::new(&gpu, &own.shot.geometry, camera, light, own.shot.resolution).unwrap()
+    };
+    let draw = |scene: &GpuScene| {
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        scene.encode_surfaces(&mut encoder, None);
+        gpu.finish(encoder).unwrap();
+        readback::positions(&gpu, scene.surfaces()).unwrap()
+    };
+    let mut moved = upload(&frames[0].camera, &frames[0].light);
+    let before = draw(&moved);
+    let there = upload(&frames[1].camera, &frames[1].light);
+    let Frame { camera, light } = frames[1];
+    assert_eq!(moved.camera_matrix_of(&own.shot.geometry, &camera, &light), there.camera_matrix());
+    moved.look(&gpu, &own.shot.geometry, &camera, &light);
+    assert_eq!(moved.camera_matrix(), there.camera_matrix());
+    assert!(draw(&moved) == draw(&there) && draw(&moved) != before);
+}
+
+/// Requests without frames, pixels or techniques are refused.
+fn bad_requests(gpu: &antumbra_testing::Gpu) {
+    let good = || request("contact", Path::Both, &["hard"]);
+    let refused = |request: Request, words: &str| {
+        let error = flicker::measure(&adopt(gpu), &request, &NoProgress).unwrap_err();
+        assert!(format!("{error:#}").contains(words), "{error:#}");
+    };
+    refused(Request { frames: 1, ..good() }, "1 frames show no motion");
+    refused(Request { frames: 0, ..good() }, "allowed are 2 to 10000");
+    refused(Request { until: 6, ..good() }, "6 measured frames: allowed are 2 to the 5");
+    refused(Request { until: 1, ..good() }, "1 measured frames");
+    refused(Request { stride: 0, ..good() }, "a stride of 0 pixels");
+    refused(Request { stride: 73, ..good() }, "allowed are 1 to 72");
+    refused(Request { techniques: Vec::new(), ..good() }, "no technique");
+}
+
+/// The page is written whole, and again over itself.
+fn page(gpu: &antumbra_testing::Gpu) {
+    let outcome = measure(gpu, &request("contact", Path::Both, &["hard", "esm"]));
+    let folder = std::env::temp_dir().join(format!("antumbra-flicker-{}", std::process::id()));
+    for _ in 0..2 {
+        flicker::write(&outcome, &folder).unwrap();
+    }
+    let page = std::fs::read_to_string(folder.join("index.html")).unwrap();
+    let data = std::fs::read_to_string(folder.join("flicker.json")).unwrap();
+    std::fs::remove_dir_all(&folder).unwrap();
+    let read: Results = serde_json::from_str(&data).unwrap();
+    assert_eq!(read.techniques.len(), 2);
+    for file in ["index.html", "film.png", "strip.png", "row.png", "hard-heat.png"] {
+        assert!(read.files.iter().any(|name| name == file), "{file}: {:?}", read.files);
+    }
+    assert_eq!(page.matches("data:image/png;base64,").count(), 5);
+    assert!(!page.contains("src=\"http") && !page.contains("{{"));
 }
 
 fn request(scene: &str, path: Path, techniques: &[&str]) -> Request {

@@ -96,71 +96,76 @@ fn warn(results: &Results) {
 }
 
 fn print(out: &mut impl Write, results: &Results) -> Result<()> {
-    let truth = &results.truth;
+    let (truth, run) = (&results.truth, &results.run);
     writeln!(
         out,
         "{}: {} triangles, {}x{} pixels, map {}x{}, kernel {}; raster and rays agree on {:.3} % of pixels",
-        results.run.scene.name,
-        results.run.scene.triangles,
-        results.run.resolution[0],
-        results.run.resolution[1],
-        results.run.map_size,
-        results.run.map_size,
-        results.run.kernel_texels,
+        run.scene.name,
+        run.scene.triangles,
+        run.resolution[0],
+        run.resolution[1],
+        run.map_size,
+        run.map_size,
+        run.kernel_texels,
         100.0 * truth.coverage_agreement,
     )?;
-    let deep = |mean: Option<f64>, pixels: u64| match mean {
-        Some(mean) => format!("{:.2}", 100.0 * mean),
-        None => format!("– ({pixels})"),
-    };
-    let percent = |v: Option<f64>| v.map_or("-".into(), |v| format!("{:.2}", 100.0 * v));
-    let work = |value: Option<f64>| value.map_or("-".into(), |v| v.to_string());
-    let row = |t: &TechniqueResult| {
-        if let Some(why) = &t.invalid {
-            return vec![t.spec.clone(), format!("invalid: {why}")];
-        }
-        let (ideal, hard) = (&t.scores.light_space, &t.scores.hard);
-        vec![
-            t.spec.clone(),
-            format!("{:.4}", ideal.rmse),
-            deep(ideal.leak, ideal.deep_shadow_pixels),
-            deep(ideal.over_darkening, ideal.deep_lit_pixels),
-            percent(hard.acne),
-            percent(Some(hard.pixel_match)),
-            format!("{:.1}", t.time.frame.median_ms),
-            t.time.frame_ratio_to_hard.map_or("-".into(), |r| format!("{r:.2}")),
-            t.time.lookup_ratio_to_hard.map_or("-".into(), |r| format!("{r:.2}")),
-            format!("{:.1}", t.memory.kept_bytes as f64 / (1024.0 * 1024.0)),
-            work(t.work.as_ref().map(|w| w.bytes_per_texel)),
-            work(t.work.as_ref().map(|w| w.lookups.into())),
-            work(t.work.as_ref().map(|w| w.passes.len() as f64)),
-        ]
-    };
     let mut rows: Vec<Vec<String>> = Vec::new();
     for (family, members) in results.families() {
         rows.push(vec![format!("- {}", family.name())]);
         rows.extend(members.into_iter().map(row));
     }
     rows.extend(super::left_out_rows(&results.left_out));
-    table::print(
-        out,
-        &[
-            "technique",
-            "RMSE",
-            "leak %",
-            "dark %",
-            "acne %",
-            "match %",
-            "frame ms",
-            "× hard",
-            "lookup × hard",
-            "MiB",
-            "B/texel",
-            "lookups",
-            "passes",
-        ],
-        &rows,
-    )?;
+    table::print(out, &HEADER, &rows)?;
+    print_notes(out, results)
+}
+
+const HEADER: [&str; 13] = [
+    "technique",
+    "RMSE",
+    "leak %",
+    "dark %",
+    "acne %",
+    "match %",
+    "frame ms",
+    "× hard",
+    "lookup × hard",
+    "MiB",
+    "B/texel",
+    "lookups",
+    "passes",
+];
+
+/// The row of one technique.
+fn row(t: &TechniqueResult) -> Vec<String> {
+    let deep = |mean: Option<f64>, pixels: u64| match mean {
+        Some(mean) => format!("{:.2}", 100.0 * mean),
+        None => format!("– ({pixels})"),
+    };
+    let percent = |v: Option<f64>| v.map_or("-".into(), |v| format!("{:.2}", 100.0 * v));
+    let work = |value: Option<f64>| value.map_or("-".into(), |v| v.to_string());
+    if let Some(why) = &t.invalid {
+        return vec![t.spec.clone(), format!("invalid: {why}")];
+    }
+    let (ideal, hard) = (&t.scores.light_space, &t.scores.hard);
+    vec![
+        t.spec.clone(),
+        format!("{:.4}", ideal.rmse),
+        deep(ideal.leak, ideal.deep_shadow_pixels),
+        deep(ideal.over_darkening, ideal.deep_lit_pixels),
+        percent(hard.acne),
+        percent(Some(hard.pixel_match)),
+        format!("{:.1}", t.time.frame.median_ms),
+        t.time.frame_ratio_to_hard.map_or("-".into(), |r| format!("{r:.2}")),
+        t.time.lookup_ratio_to_hard.map_or("-".into(), |r| format!("{r:.2}")),
+        format!("{:.1}", t.memory.kept_bytes as f64 / (1024.0 * 1024.0)),
+        work(t.work.as_ref().map(|w| w.bytes_per_texel)),
+        work(t.work.as_ref().map(|w| w.lookups.into())),
+        work(t.work.as_ref().map(|w| w.passes.len() as f64)),
+    ]
+}
+
+/// What stands below the table.
+fn print_notes(out: &mut impl Write, results: &Results) -> Result<()> {
     for technique in results.valid() {
         for class in &technique.classes {
             writeln!(
@@ -194,7 +199,7 @@ fn print(out: &mut impl Write, results: &Results) -> Result<()> {
     writeln!(
         out,
         "no shadow at all matches {:.2} % of shadowable pixels",
-        100.0 * truth.no_shadow.pixel_match
+        100.0 * results.truth.no_shadow.pixel_match
     )?;
     Ok(())
 }

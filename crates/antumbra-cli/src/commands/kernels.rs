@@ -2,9 +2,11 @@
 
 use super::table;
 use crate::{
-    arguments::{Kernels, ViewArguments},
+    arguments::Kernels,
     progress::{self, Bar},
-    scene, techniques,
+    scene,
+    scene_arguments::ViewArguments,
+    techniques,
 };
 use antumbra_lab::{
     compare::{self, Request},

@@ -4,6 +4,7 @@ use crate::{
     gallery,
     page::{Cell, Page, Table, Unit},
     raster::difference,
+    study::{Look, Traced},
     verdict::{Verdict, less},
     workbench::Workbench,
 };
@@ -58,11 +59,9 @@ pub(super) fn figure_9(bench: &Workbench<'_>) -> Result<Page> {
             table.row(format!("{scene}: {spec}"), cells.map(|(v, unit)| Cell::ours(v, unit)).into());
         }
         page.verdict(no_leaking(scene, there));
-        let mut wrong = difference(&vsm.picture, &ideal.picture);
         // Where it leaks nowhere, in all full shadow.
         let shown = if leaking.contains(&true) { &leaking } else { &shadow };
-        wrong.iter_mut().zip(shown).filter(|(_, s)| !**s).for_each(|(w, _)| *w = 0.0);
-        let window = gallery::window(&wrong, &vsm.picture, 8);
+        let window = gallery::window(&difference_in(vsm, ideal, shown), &vsm.picture, 8);
         let captions = [
             format!("The scene {scene}, as in the figure, with what rays say on the right."),
             "Enlarged: where the VSM is most wrong in full shadow.".into(),
@@ -81,6 +80,13 @@ pub(super) fn figure_9(bench: &Workbench<'_>) -> Result<Page> {
          is too bright (see figure 6).",
     );
     Ok(page)
+}
+
+/// How much a picture differs from the ideal where a mask is set, 0 elsewhere.
+fn difference_in(look: &Look, ideal: &Traced, mask: &[bool]) -> Vec<f64> {
+    let mut wrong = difference(&look.picture, &ideal.picture);
+    wrong.iter_mut().zip(mask).filter(|(_, shown)| !**shown).for_each(|(w, _)| *w = 0.0);
+    wrong
 }
 
 /// Pixels with none nearby that can be lit and is: those that a filter of a pixel's footprint may not

@@ -151,7 +151,16 @@ fn objects(scene: &mut Builder, random: &mut Random) {
         let at = Mat4::from_translation(Vec3::new(x, radius - 0.004, z));
         scene.place(stone_ball, at * Mat4::from_scale(Vec3::splat(radius)));
     }
+    crates(scene, random, wood);
+    let urn = shapes::turned(&urn_profile(), 64);
+    let urn = scene.mesh("urn", urn, clay);
+    for [x, z] in [[-4.9, 4.9], [0.7, 4.4], [2.1, 2.3], [6.6, 2.9], [3.6, -0.6], [-5.2, -0.2]] {
+        stand(scene, urn, [x, 0.0, z], random.between(0.0, TAU));
+    }
+}
 
+/// Crates, some on others, and planks that lean on one.
+fn crates(scene: &mut Builder, random: &mut Random, wood: usize) {
     let size = 0.8;
     let crate_mesh = scene.mesh("crate", shapes::cuboid(Vec3::splat(size)), wood);
     for [x, level, z] in [
@@ -170,11 +179,6 @@ fn objects(scene: &mut Builder, random: &mut Random) {
         // Leans on the crate's back half: its lower edge touches the ground.
         let lean = Mat4::from_rotation_y(0.1) * Mat4::from_rotation_x(-0.52);
         scene.place(plank, Mat4::from_translation(Vec3::new(x, 0.742, 3.98)) * lean);
-    }
-    let urn = shapes::turned(&urn_profile(), 64);
-    let urn = scene.mesh("urn", urn, clay);
-    for [x, z] in [[-4.9, 4.9], [0.7, 4.4], [2.1, 2.3], [6.6, 2.9], [3.6, -0.6], [-5.2, -0.2]] {
-        stand(scene, urn, [x, 0.0, z], random.between(0.0, TAU));
     }
 }
 
