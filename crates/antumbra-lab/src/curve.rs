@@ -83,7 +83,7 @@ fn view() -> View {
         depth_plane: Vec4::Z,
         to_light: Vec4::NEG_Z,
         texel_world: 2.0 / SIZE.width as f32,
-        near_over_far: 1.0,
+        linear_from_clip: [Vec4::Z, Vec4::W],
         depth_world: 1.0,
     }
 }

@@ -8,6 +8,7 @@ use crate::{
     session::Session,
     texels,
 };
+use antumbra::glam::Vec3;
 use antumbra::{DEPTH_FORMAT, ShadowMap, View};
 use antumbra_render::{GpuScene, ViewMatrices};
 use anyhow::{Context, Result, bail};
@@ -127,9 +128,12 @@ fn depth(
     }
     gpu.finish(encoder)?;
     let mut planes = texels::planes(DEPTH_FORMAT, [width, height], &gpu.read(&target)?)?;
-    let k = view.near_over_far;
     for plane in &mut planes {
-        plane.values.iter_mut().for_each(|z| *z = k * *z / (1.0 - (1.0 - k) * *z));
+        for (i, z) in (0..).zip(&mut plane.values) {
+            let [x, y] = [i % width, i / width].map(|texel| texel as f32 + 0.5);
+            *z =
+                view.linear_depth(Vec3::new(2.0 * x / width as f32 - 1.0, 1.0 - 2.0 * y / height as f32, *z));
+        }
     }
     match planes.first() {
         Some(plane) => Ok(Picture::new(name, plane, 0.0)),

@@ -84,7 +84,7 @@ pub(crate) struct ViewFacts {
     depth_plane: [f32; 4],
     to_light: [f32; 4],
     texel_world: f32,
-    near_over_far: f32,
+    linear_from_clip: [[f32; 4]; 2],
     depth_world: f32,
 }
 
@@ -95,7 +95,7 @@ impl ViewFacts {
             depth_plane: view.depth_plane.to_array(),
             to_light: view.to_light.to_array(),
             texel_world: view.texel_world,
-            near_over_far: view.near_over_far,
+            linear_from_clip: view.linear_from_clip.map(|row| row.to_array()),
             depth_world: view.depth_world,
         }
     }
@@ -106,7 +106,7 @@ impl ViewFacts {
             depth_plane: Vec4::from_array(self.depth_plane),
             to_light: Vec4::from_array(self.to_light),
             texel_world: self.texel_world,
-            near_over_far: self.near_over_far,
+            linear_from_clip: self.linear_from_clip.map(Vec4::from_array),
             depth_world: self.depth_world,
         }
     }

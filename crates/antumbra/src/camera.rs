@@ -52,6 +52,12 @@ impl Sight {
         Ok(Self { clip_from_world: m, distance, orthographic })
     }
 
+    /// Coefficients q of the distance along the line of sight, `dot(q, (p, 1))`, in world units: from the eye or, if
+    /// the camera is orthographic, from its near plane.
+    pub(crate) fn plane(&self) -> DVec4 {
+        self.distance
+    }
+
     pub(crate) fn distance(&self, p: Vec3) -> f32 {
         self.distance.dot(p.as_dvec3().extend(1.0)) as f32
     }

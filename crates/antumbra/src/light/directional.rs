@@ -11,7 +11,7 @@ use super::{
     fit::extent,
 };
 use crate::{camera::TINY, error::LightError};
-use glam::{DVec4, Vec3};
+use glam::{DVec4, Vec3, Vec4};
 
 /// The next world size of a texel, in steps of 2^(1/16), that is not smaller.
 fn stepped(texel: f64) -> f64 {
@@ -75,7 +75,7 @@ pub(super) fn view(direction: Vec3, fit: &Fit) -> Result<View, LightError> {
         depth_plane: depth.as_vec4(),
         to_light: (-axes.along).as_vec3().extend(0.0),
         texel_world: texel as f32,
-        near_over_far: 1.0,
+        linear_from_clip: [Vec4::Z, Vec4::W],
         depth_world: (far - near) as f32,
     })
 }

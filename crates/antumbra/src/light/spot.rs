@@ -6,7 +6,7 @@ use super::{
     fit::extent,
 };
 use crate::error::LightError;
-use glam::{DVec3, DVec4, Vec3};
+use glam::{DVec3, DVec4, Vec3, Vec4};
 
 /// The view of a spot.
 ///
@@ -37,6 +37,7 @@ pub(super) fn view(position: Vec3, direction: Vec3, outer_angle: f32, fit: &Fit)
     let a = far / (far - near);
     let z = DVec4::new(w.x * a, w.y * a, w.z * a, w.w * a - near * a);
     let depth = (w - DVec4::W * near) / (far - near);
+    let ratio = (near / far) as f32;
     Ok(View {
         clip_from_world: from_rows(
             from_apex(axes.right, scale(fit.size.width)),
@@ -47,7 +48,7 @@ pub(super) fn view(position: Vec3, direction: Vec3, outer_angle: f32, fit: &Fit)
         depth_plane: depth.as_vec4(),
         to_light: position.as_vec3().extend(1.0),
         texel_world: (2.0 * tangent / side) as f32,
-        near_over_far: (near / far) as f32,
+        linear_from_clip: [Vec4::new(0.0, 0.0, ratio, 0.0), Vec4::new(0.0, 0.0, ratio - 1.0, 1.0)],
         depth_world: (far - near) as f32,
     })
 }

@@ -89,7 +89,7 @@ fn a_spot_sees_its_cone_and_linear_depth_is_linear() {
     let depth = |y: f32| view.depth_plane.dot(Vec4::new(1.0, y, 0.3, 1.0));
     assert!((depth(2.0) - 0.5 * (depth(1.0) + depth(3.0))).abs() < 1e-6);
     // raster_linear in shader/raster.wgsl, in Rust.
-    let (z, r) = (project(&view, Vec3::new(1.0, 2.0, 0.3)).z, view.near_over_far);
+    let (z, r) = (project(&view, Vec3::new(1.0, 2.0, 0.3)).z, view.near_over_far());
     assert!((r * z / (1.0 - (1.0 - r) * z) - depth(2.0)).abs() < 1e-5);
     // A texel one unit from the apex.
     let world = 2.0 * 0.5f32.tan() / 504.0;

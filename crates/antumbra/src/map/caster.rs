@@ -30,8 +30,8 @@ pub(super) const VIEW_BYTES: u64 = size_of::<CasterView>() as u64;
 
 impl CasterView {
     pub(super) fn new(view: &View, size: Size, coverage: Coverage) -> Self {
-        // near = far · near_over_far, far − near = depth_world.
-        let near = view.depth_world * view.near_over_far / (1.0 - view.near_over_far).max(1e-6);
+        // The apex lies in front of the near plane by the near distance.
+        let near = -view.depth_world * view.depth_plane.dot(view.to_light);
         let perspective = perspective(view);
         Self {
             clip_from_world: view.clip_from_world.to_cols_array_2d(),
@@ -42,7 +42,7 @@ impl CasterView {
                 Coverage::Touched => 0.5,
                 Coverage::Centre => 0.0,
             },
-            near_over_far: view.near_over_far,
+            near_over_far: view.near_over_far(),
             padding: [0.0; 2],
         }
     }
@@ -50,7 +50,7 @@ impl CasterView {
 
 /// 1 for a spot's view, else 0.
 pub(super) fn perspective(view: &View) -> u32 {
-    u32::from(view.near_over_far < 1.0)
+    u32::from(view.is_perspective())
 }
 
 fn layout(device: &wgpu::Device, label: &str, types: &[BufferBindingType]) -> BindGroupLayout {

@@ -15,10 +15,12 @@ struct ShadowView {
     clip_from_world: [[f32; 4]; 4],
     depth_plane: [f32; 4],
     to_light: [f32; 4],
+    linear_over: [f32; 4],
+    linear_under: [f32; 4],
     texel_world: f32,
-    near_over_far: f32,
     reach_x: f32,
     reach_y: f32,
+    padding: f32,
 }
 
 /// Without what follows it.
@@ -123,7 +125,8 @@ impl Uniforms {
             self.bytes.resize(i * self.stride as usize, 0);
             let (side, reach) = self.blur.map_or(([0.0; MOST_SIDE], 0), |blur| blur.side(view.texel_world));
             self.bytes.extend_from_slice(bytemuck::cast_slice(&side));
-            self.bytes.extend_from_slice(bytemuck::cast_slice(&[reach as f32, view.near_over_far]));
+            self.bytes.extend_from_slice(bytemuck::cast_slice(&view.linear_from_clip));
+            self.bytes.extend_from_slice(&(reach as f32).to_ne_bytes());
             self.bytes.extend_from_slice(bytemuck::cast_slice(settings));
             extend(&mut self.bytes, self.per_view.at(view.texel_world));
         }
@@ -161,10 +164,10 @@ pub(super) fn view_bytes(description: &Description) -> u64 {
     PerView::of(description).bytes()
 }
 
-/// Size of one view's convert settings: blur weights and reach, the view's ratio, settings and what each view
+/// Size of one view's convert settings: blur weights, the rows that make depth linear, the blur's reach, settings and what each view
 /// has of its own.
 fn convert_bytes(settings: usize) -> u64 {
-    (4 * (MOST_SIDE as u64 + 2 + settings as u64)).next_multiple_of(16)
+    (4 * (MOST_SIDE as u64 + 9 + settings as u64)).next_multiple_of(16)
 }
 
 /// What follows `views` and `view_count`: size, bias, settings.
@@ -204,14 +207,17 @@ fn receiver_bytes(
     bytes.clear();
     for i in 0..room {
         bytes.resize(i * stride, 0);
-        let view = views.get(i).map_or(blank, |v| ShadowView {
+        // Receivers take all depth as growing; maps of reversed depth are read likewise.
+        let view = views.get(i).map(View::forward).map_or(blank, |v| ShadowView {
             clip_from_world: v.clip_from_world.to_cols_array_2d(),
             depth_plane: v.depth_plane.to_array(),
             to_light: v.to_light.to_array(),
+            linear_over: v.linear_from_clip[0].to_array(),
+            linear_under: v.linear_from_clip[1].to_array(),
             texel_world: v.texel_world,
-            near_over_far: v.near_over_far,
             reach_x: reach[0],
             reach_y: reach[1],
+            padding: 0.0,
         });
         bytes.extend_from_slice(bytemuck::bytes_of(&view));
         extend(bytes, views.get(i).into_iter().flat_map(|view| per_view.at(view.texel_world)));

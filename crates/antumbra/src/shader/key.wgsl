@@ -33,3 +33,9 @@ fn key_is_near(key: u32) -> bool {
 
 /// The bit that says so, before it is inverted.
 const key_near: u32 = 0x80000000u;
+
+/// What keys take for the linear depth of a projected one. It orders triangles alike for all that use the same number.
+fn key_linear(depth: f32, near_over_far: f32) -> f32 {
+    let z = clamp(depth, 0.0, 1.0);
+    return near_over_far * z / (1.0 - (1.0 - near_over_far) * z);
+}

@@ -1,16 +1,14 @@
-/// Linear depth in [0,1] of a projected depth in [0,1]; `near_over_far` is 1 for parallel light,
-/// where both are the same.
-fn raster_linear(depth: f32, near_over_far: f32) -> f32 {
-    return near_over_far * depth / (1.0 - (1.0 - near_over_far) * depth);
+/// Linear depth, [0,1] from near to far, of normalised device coordinates, by the two rows of a view.
+fn raster_linear(ndc: vec3f, over: vec4f, under: vec4f) -> f32 {
+    return dot(over, vec4f(ndc, 1.0)) / dot(under, vec4f(ndc, 1.0));
 }
 
-/// How fast projected depth changes with linear depth, at the linear depth `linear`.
-fn raster_slope(linear: f32, near_over_far: f32) -> f32 {
-    let scale = near_over_far + linear * (1.0 - near_over_far);
-    return near_over_far / (scale * scale);
+/// How fast projected depth changes with linear depth, which is `linear` at these coordinates.
+fn raster_slope(ndc: vec3f, linear: f32, over: vec4f, under: vec4f) -> f32 {
+    return dot(under, vec4f(ndc, 1.0)) / (over.z - under.z * linear);
 }
 
-/// A depth that may enter a map: what is outside [0,1] or not a number becomes the far plane, so
+/// A linear depth that may enter a map: what is outside [0,1] or not a number becomes the far plane, so
 /// that one bad texel cannot spread through a filter.
 fn raster_clean(depth: f32) -> f32 {
     return select(1.0, depth, depth >= 0.0 && depth <= 1.0);

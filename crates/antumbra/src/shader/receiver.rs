@@ -47,7 +47,7 @@ fn uniforms(description: &Description, views: u32, group: u32) -> String {
     let per_view: String = settings::per_view(description).map(|name| format!(", {name}: f32")).collect();
     let once: String = settings::once(description).map(|name| format!("    {name}: f32,\n")).collect();
     format!(
-        "struct ShadowView {{ clip_from_world: mat4x4f, depth_plane: vec4f, to_light: vec4f, texel_world: f32, near_over_far: f32, reach_x: f32, reach_y: f32{per_view} }}\n\
+        "struct ShadowView {{ clip_from_world: mat4x4f, depth_plane: vec4f, to_light: vec4f, linear_over: vec4f, linear_under: vec4f, texel_world: f32, reach_x: f32, reach_y: f32, padding: f32{per_view} }}\n\
          struct ShadowUniforms {{\n    views: array<ShadowView, {views}>,\n    view_count: u32, width: f32, height: f32,\n    constant_texels: f32, slope_texels: f32, normal_offset_texels: f32, grazing_offset_texels: f32,\n    receiver_plane: f32, constant_depth: f32, float_steps: f32,\n{once}}}\n\
          @group({group}) @binding(0) var<uniform> shadow: ShadowUniforms;\n"
     )
@@ -85,14 +85,19 @@ fn bindings(glue: &mut String, composition: &Composition, size: MapSize, group: 
 fn function(description: &Description, arguments: &str, kind: &str, [result, outside]: [&str; 2]) -> String {
     let name = description.about.name;
     let (depth, slopes, scale, rounding) = match description.depth_space {
-        DepthSpace::Raster => {
-            ("ndc.z", "vec2f(s.z, t.z)", "raster_slope(linear, (*light).near_over_far)", ROUNDING.to_string())
-        }
+        DepthSpace::Raster => (
+            "ndc.z",
+            "vec2f(s.z, t.z)",
+            "raster_slope(ndc.xyz, linear, (*light).linear_over, (*light).linear_under)",
+            ROUNDING.to_string(),
+        ),
         DepthSpace::Linear => (
             "linear",
             "vec2f(dot((*light).depth_plane.xyz, tangent), dot((*light).depth_plane.xyz, bitangent))",
             "1.0",
-            format!("{ROUNDING} / raster_slope(linear, (*light).near_over_far)"),
+            format!(
+                "{ROUNDING} / raster_slope(ndc.xyz, linear, (*light).linear_over, (*light).linear_under)"
+            ),
         ),
     };
     // Other families do not compare texels one by one: what they do with the plane is no bias.
@@ -133,7 +138,7 @@ pub(super) fn buffer_accessors(ranked: Ranked, name: &str, size: MapSize, asks: 
         Ranked::Keys => format!(
             "fn shadow_key(i: u32) -> u32 {{ {} }}\n\
              fn shadow_key_bits() -> u32 {{ return {}u; }}\n\
-             fn shadow_near_over_far(view: u32) -> f32 {{ return shadow.views[view].near_over_far; }}\n",
+             fn shadow_near_over_far(view: u32) -> f32 {{ return shadow.views[view].linear_over.z / shadow.views[view].linear_under.w; }}\n",
             size.splits.keys.chosen(name, |buffer, i| format!("return {buffer}[{i}];")),
             size.capacity.id_bits()
         ),

@@ -43,7 +43,7 @@ fn dpm_class_at(casters: texture_depth_2d_array, point: vec2f, view: u32, depth:
     let texel = min(vec2u(max(point, vec2f(0.0))), size - 1u);
     let start = ((view * size.y + texel.y) * size.x + texel.x) * dpm_keeps;
     let bits = shadow_key_bits();
-    let step = key_step(raster_linear(clamp(depth, 0.0, 1.0), shadow_near_over_far(view)), bits);
+    let step = key_step(key_linear(depth, shadow_near_over_far(view)), bits);
     let ray = vec3f(point, 0.0);
     var key = 0u;
     for (var i = start; i < start + dpm_keeps; i += 1u) {
@@ -68,7 +68,7 @@ fn dpm_class_at(casters: texture_depth_2d_array, point: vec2f, view: u32, depth:
         }
     }
     let before = depth - dot(abs(gain), vec2f(1.0));
-    let least = key_step(raster_linear(clamp(before, 0.0, 1.0), shadow_near_over_far(view)), bits);
+    let least = key_step(key_linear(before, shadow_near_over_far(view)), bits);
     let last = key_is_near(key) || key_begin(key, bits) >= least;
     let complete = last && !dpm_occluded(casters, vec2i(texel), point, view, before, gain);
     return select(dpm_uncertain, dpm_lit, complete);

@@ -12,8 +12,12 @@ pub(crate) fn raster_depth_is_linearised(gpu: &Gpu) {
     // r = near/far; z projected depth; l linear depth.
     let rows = rows(6, |r| row([r.unit(), 10f32.powf(r.range(-3.0, 0.0)), r.unit()]));
     let body = "
-        put(0u, raster_linear(take(0u), take(1u)));
-        put(1u, raster_slope(take(2u), take(1u)));";
+        let r = take(1u);
+        let over = vec4f(0.0, 0.0, r, 0.0);
+        let under = vec4f(0.0, 0.0, r - 1.0, 1.0);
+        put(0u, raster_linear(vec3f(0.7, -0.3, take(0u)), over, under));
+        let l = take(2u);
+        put(1u, raster_slope(vec3f(0.7, -0.3, l / (r + l * (1.0 - r))), l, over, under));";
     let found = run::<2>(gpu, &shadows, body, &rows);
     // From distances: with far = 1, z = (1 − r/w)/(1 − r), linear depth (w − r)/(1 − r).
     let linear = |factor: f64| {
@@ -31,7 +35,8 @@ pub(crate) fn raster_depth_is_linearised(gpu: &Gpu) {
         move |row: &[f64; INPUTS]| {
             let (h, l, r) = (1e-7, row[2], row[1] * factor);
             let s = (projected(l + h, r) - projected(l - h, r)) / (2.0 * h);
-            ([s], 1e-5 * s)
+            // 1 − (1 − r)z loses the bits that it cancels.
+            ([s], s * (1e-5 + 1.2e-7 * (r + l * (1.0 - r)) / r))
         }
     };
     compare_from(1, &rows, &found, slope(1.0)).unwrap();

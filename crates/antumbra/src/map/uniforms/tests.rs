@@ -34,10 +34,12 @@ fn rust_view(description: &Description) -> Layout {
         row!(clip_from_world),
         row!(depth_plane),
         row!(to_light),
+        row!(linear_over),
+        row!(linear_under),
         row!(texel_world),
-        row!(near_over_far),
         row!(reach_x),
         row!(reach_y),
+        row!(padding),
     ];
     let base = VIEW_BYTES as u32;
     rows.extend((0..).zip(settings::per_view(description)).map(|(i, name)| (name, base + 4 * i, 4)));
@@ -84,7 +86,7 @@ fn the_view_is_laid_out_alike_in_rust_and_wgsl() {
         assert_eq!(u64::from(stride), view_bytes(description));
         // Negative controls: two members swapped, one of another type.
         let swapped = text
-            .replace("near_over_far: f32, reach_x: f32", "reach_x: f32, near_over_far: f32")
+            .replace("texel_world: f32, reach_x: f32", "reach_x: f32, texel_world: f32")
             .replace("depth_plane: vec4f, to_light: vec4f", "to_light: vec4f, depth_plane: vec4f");
         assert_ne!(swapped, text);
         same(&swapped, description).unwrap_err();
@@ -115,7 +117,7 @@ fn what_is_written_lies_where_the_shader_reads_it() {
         depth_plane: glam::Vec4::new(20.0, 21.0, 22.0, 23.0),
         to_light: glam::Vec4::new(24.0, 25.0, 26.0, 27.0),
         texel_world: 28.0,
-        near_over_far: 29.0,
+        linear_from_clip: [[31.0, 32.0, 33.0, 34.0], [0.0, 0.0, 0.0, 1.0]].map(glam::Vec4::from_array),
         depth_world: 30.0,
     };
     let [near, far] = [1.0f32, 4.0].map(|square| (-square / (2.0 * 1.1 * 1.1)).exp());
@@ -162,7 +164,9 @@ fn what_is_written_lies_where_the_shader_reads_it() {
         assert_eq!(float(base + 4 * 7), 7.0);
         assert_eq!(float(base + rows[1].1), 20.0);
         assert_eq!(float(base + rows[2].1), 24.0);
-        let tail: Vec<f32> = rows[3..].iter().map(|(_, offset, _)| float(base + offset)).collect();
+        assert_eq!(float(base + rows[3].1 + 4), 32.0);
+        assert_eq!(float(base + rows[4].1 + 12), 1.0);
+        let tail: Vec<f32> = rows[5..].iter().map(|(_, offset, _)| float(base + offset)).collect();
         // 140 and 1400 world units in texels of 28; the latter is more than 31 texels.
         // A box of five has the variance (5² − 1) / 12, the Gaussian of σ = 1.1 by its taps.
         let further = match spec.split(['.', ',']).next().unwrap() {
@@ -171,7 +175,7 @@ fn what_is_written_lies_where_the_shader_reads_it() {
             "poisson" => vec![31.0],
             _ => Vec::new(),
         };
-        let expected = [vec![28.0, 29.0, 0.25, 0.125], further].concat();
+        let expected = [vec![28.0, 0.25, 0.125, 0.0], further].concat();
         assert_eq!(tail.len(), expected.len(), "{spec}");
         assert!(tail.iter().zip(&expected).all(|(f, e)| (f - e).abs() < 1e-6), "{spec}: {tail:?}");
         assert!(bytes[2 * base as usize..3 * base as usize].iter().all(|b| *b == 0));
@@ -188,11 +192,14 @@ fn the_convert_settings_are_floats_in_order() {
             let module = parse_str(&step.shader).unwrap();
             let (members, _) = layout(&module, "Convert");
             let description = &composition.description;
-            let names = ["reach", "near_over_far"].map(String::from).into_iter();
-            let names = names.chain(settings::once(description)).chain(settings::per_view(description));
+            let names = std::iter::once("reach".to_string())
+                .chain(settings::once(description))
+                .chain(settings::per_view(description));
             let side = 4 * MOST_SIDE as u32;
+            let rows = [("linear_over", side), ("linear_under", side + 16)];
             let mut expected = vec![("side".to_string(), 0, side)];
-            expected.extend(names.zip(0..).map(|(name, i)| (name, side + 4 * i, 4)));
+            expected.extend(rows.map(|(name, at)| (name.to_string(), at, 16)));
+            expected.extend(names.zip(0..).map(|(name, i)| (name, side + 32 + 4 * i, 4)));
             assert_eq!(members, expected);
         }
     }
