@@ -147,10 +147,10 @@ fn vector(text: &str) -> Result<DVec3> {
     }
 }
 
-fn degrees(text: &str, most: f32) -> Result<f32> {
+fn degrees(text: &str, max: f32) -> Result<f32> {
     match text.parse::<f32>() {
-        Ok(degrees) if degrees > 0.0 && degrees <= most => Ok(degrees.to_radians()),
-        _ => bail!("'{text}' is not an angle of more than 0 and at most {most} degrees"),
+        Ok(degrees) if degrees > 0.0 && degrees <= max => Ok(degrees.to_radians()),
+        _ => bail!("'{text}' is not an angle of more than 0 and at most {max} degrees"),
     }
 }
 

@@ -169,8 +169,8 @@ fn numbers(trials: &mut Trials) {
         assert_eq!(folder.names().len(), 0);
     });
     trials.add("size_beyond_the_device", |gpu| {
-        let most = gpu.device.limits().max_texture_dimension_2d.to_string();
-        refused(&["contact", "--size", "999999"], &["999999", &format!("1 to {most}")]);
+        let max = gpu.device.limits().max_texture_dimension_2d.to_string();
+        refused(&["contact", "--size", "999999"], &["999999", &format!("1 to {max}")]);
     });
     trials.add("kernel_wider_than_the_map", |_| {
         refused(&["contact", "--size", "4"], &["4 texels", "margin"]);

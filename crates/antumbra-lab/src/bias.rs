@@ -102,12 +102,12 @@ pub fn rank_biases(rows: &[Row]) -> Vec<Ranking<'_>> {
     let mut rankings = Vec::new();
     for auto in autos {
         let others: Vec<&Row> = others.iter().copied().filter(|o| o.technique == auto.technique).collect();
-        let least = |most_acne: f64| {
-            let able = others.iter().copied().filter(|row| row.acne <= most_acne);
+        let min = |max_acne: f64| {
+            let able = others.iter().copied().filter(|row| row.acne <= max_acne);
             able.min_by(|a, b| a.rmse.total_cmp(&b.rmse))
         };
-        if let Some(best_of_all) = least(1.0) {
-            let best = least(TOLERATED_ACNE);
+        if let Some(best_of_all) = min(1.0) {
+            let best = min(TOLERATED_ACNE);
             rankings.push(Ranking { auto, best, best_of_all, others });
         }
     }

@@ -121,7 +121,7 @@ fn render(
     let picture = session.picture()?;
     let spec = technique::spec(technique);
     let score = |truth: &TruthImage, among: Option<&[bool]>| -> Result<Score> {
-        Ok(truth.score(&answer, among).with_context(|| spec.clone())?.heard())
+        Ok(truth.score(&answer, among).with_context(|| spec.clone())?.reliable())
     };
     let scores = Scores {
         hard: score(&truths.hard, None)?,

@@ -1,7 +1,7 @@
 //! Which of a light's views shades a point, and how its texels lie there.
 
 use antumbra::View;
-use antumbra_truth::{MapPlane, MapPlanes};
+use antumbra_truth::{MapTexels, TexelAxes};
 use anyhow::{Result, bail};
 use glam::{DVec2, DVec3};
 
@@ -61,16 +61,16 @@ impl MapViews {
     }
 }
 
-impl MapPlanes for MapViews {
-    fn plane(&self, point: DVec3) -> MapPlane {
-        map_plane(self.view(point))
+impl MapTexels for MapViews {
+    fn axes(&self, point: DVec3) -> TexelAxes {
+        texel_axes(self.view(point))
     }
 }
 
 /// How the texels of a view lie in the world, for the light-space ideal.
 #[must_use]
-pub fn map_plane(view: &View) -> MapPlane {
+pub fn texel_axes(view: &View) -> TexelAxes {
     let texel = f64::from(view.texel_world);
     let axis = |row: usize| view.clip_from_world.row(row).truncate().as_dvec3().normalize();
-    MapPlane { right_per_texel: axis(0) * texel, down_per_texel: -axis(1) * texel }
+    TexelAxes { right_per_texel: axis(0) * texel, down_per_texel: -axis(1) * texel }
 }

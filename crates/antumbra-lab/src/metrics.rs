@@ -74,7 +74,7 @@ pub struct Score {
 impl Score {
     /// The same without leak and over-darkening where they are means over fewer than [`MIN_DEEP_PIXELS`] pixels.
     #[must_use]
-    pub fn heard(self) -> Self {
+    pub fn reliable(self) -> Self {
         Self {
             leak: self.leak.filter(|_| self.deep_shadow_pixels >= MIN_DEEP_PIXELS),
             over_darkening: self.over_darkening.filter(|_| self.deep_lit_pixels >= MIN_DEEP_PIXELS),

@@ -32,14 +32,14 @@ const NEAR: f64 = 0.02;
 
 fn main() {
     let mut trials = Trials::default();
-    for (scene, size, least) in CASES {
+    for (scene, size, min) in CASES {
         trials.add(format!("{scene}: what rays see"), move |gpu| {
             let found = Differences::of("exact", ENOUGH, gpu, scene, size);
             if std::env::var_os("ANTUMBRA_MEASURE").is_some() {
                 eprintln!("{scene}: {found:?}");
             }
             assert_eq!(found.unexplained, 0, "{found:?}");
-            assert!(found.pixel_match() >= least, "{found:?}");
+            assert!(found.pixel_match() >= min, "{found:?}");
         });
         trials.add(format!("{scene}: rejected: one triangle per texel"), move |gpu| {
             let found = Differences::of("hard", ENOUGH, gpu, scene, size);

@@ -154,11 +154,11 @@ fn means_over_few_pixels_are_not_told() {
     // Deep shadow is columns 0..=6 of 10 rows, deep light as many.
     let few = score(&halves(), &halves(), &ALL).unwrap();
     assert_eq!((few.deep_shadow_pixels, few.deep_lit_pixels), (70, 70));
-    assert_eq!((few.heard().leak, few.heard().over_darkening), (None, None));
-    assert_eq!((few.heard().acne, few.heard().rmse), (few.acne, few.rmse));
+    assert_eq!((few.reliable().leak, few.reliable().over_darkening), (None, None));
+    assert_eq!((few.reliable().acne, few.reliable().rmse), (few.acne, few.rmse));
     // Of twenty columns of shadow and sixty of light, in 20 rows, 17 and 57 are deep.
     let wide = GrayImage::from_fn(80, 20, |x, _| if x < 20 { 0.0 } else { 1.0 });
     let some = score(&wide, &wide, &[true; 1600]).unwrap();
     assert_eq!((some.deep_shadow_pixels, some.deep_lit_pixels), (17 * 20, 57 * 20));
-    assert_eq!((some.heard().leak, some.heard().over_darkening), (None, Some(0.0)));
+    assert_eq!((some.reliable().leak, some.reliable().over_darkening), (None, Some(0.0)));
 }

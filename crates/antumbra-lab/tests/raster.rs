@@ -23,8 +23,8 @@ fn main() {
         trials.add(format!("coverage_{}", entry.name), move |gpu| {
             // Twigs and grass are about as small as pixels here: more centres lie on an edge.
             let fine = ["fence", "backyard", "trees", "city"].contains(&entry.name);
-            let least = if fine { 0.996 } else { 0.999 };
-            sees_what_rays_see(&Picture::new(gpu, &entry.scene(1), [320, 240]), least);
+            let min = if fine { 0.996 } else { 0.999 };
+            sees_what_rays_see(&Picture::new(gpu, &entry.scene(1), [320, 240]), min);
         });
     }
     trials.add("coverage_of_cutouts", |gpu| {
@@ -51,12 +51,12 @@ fn main() {
 }
 
 /// At least that share of pixels shows the same triangle, and every other has a good reason.
-fn sees_what_rays_see(shot: &Picture, least: f64) {
+fn sees_what_rays_see(shot: &Picture, min: f64) {
     let coverage = shot.coverage();
     // Graphics cards round corners in ways of their own before they snap them.
     let allowed = if shot.gpu.info.device_type == wgpu::DeviceType::Cpu { 0 } else { 2 };
     assert!(coverage.unexplained <= allowed, "{:?}: {coverage:?}", coverage.first_unexplained);
-    assert!(coverage.agreement() >= least, "{coverage:?}");
+    assert!(coverage.agreement() >= min, "{coverage:?}");
     assert!(coverage.agree > 0);
 }
 
@@ -339,7 +339,7 @@ fn refusals(_: &antumbra_testing::Gpu) {
     let other = antumbra_testing::gpu_without(wgpu::Features::empty()).unwrap();
     let gpu = Gpu::adopt(other.device, other.queue, other.info);
     gpu.check().unwrap();
-    let most = gpu.device.limits().max_buffer_size;
+    let max = gpu.device.limits().max_buffer_size;
     let too_large = |size| {
         gpu.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("too large"),
@@ -348,11 +348,11 @@ fn refusals(_: &antumbra_testing::Gpu) {
             mapped_at_creation: false,
         })
     };
-    let buffer = too_large(most + 4);
+    let buffer = too_large(max + 4);
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     encoder.clear_buffer(&buffer, 0, None);
     let message = gpu.finish(encoder).unwrap_err().to_string();
-    assert!(message.contains("too large") && message.contains(&most.to_string()), "{message}");
+    assert!(message.contains("too large") && message.contains(&max.to_string()), "{message}");
     // Said once, and then the device goes on.
     gpu.check().unwrap();
     gpu.finish(gpu.device.create_command_encoder(&Default::default())).unwrap();

@@ -218,11 +218,11 @@ pub fn number(value: f64) -> String {
 }
 
 /// Whether the cells of a table come in the paper's order: a rank correlation of `least` or more.
-pub(crate) fn same_order(ours: &[f64], paper: &[f64], least: f64) -> Verdict {
+pub(crate) fn same_order(ours: &[f64], paper: &[f64], min: f64) -> Verdict {
     let correlation = crate::numbers::rank_correlation(ours, paper);
     Verdict::new(
         "The cells of the table come in the paper's order",
-        [at_least("rank correlation of our ratios with the paper's", correlation, least.to_string(), least)],
+        [at_least("rank correlation of our ratios with the paper's", correlation, min.to_string(), min)],
     )
 }
 

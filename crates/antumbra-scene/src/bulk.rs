@@ -38,8 +38,8 @@ impl Bulk {
     /// The box around those of the points that are no strays; `whole` is the box around all.
     fn bounds(&self, whole: Aabb, points: impl Iterator<Item = Vec3>) -> Aabb {
         let all = self.reach == 0.0 || self.holds(whole.min) && self.holds(whole.max);
-        let most = if all { None } else { Aabb::around(points.filter(|p| self.holds(*p))) };
-        most.unwrap_or(whole)
+        let max = if all { None } else { Aabb::around(points.filter(|p| self.holds(*p))) };
+        max.unwrap_or(whole)
     }
 
     /// A round point in the middle, if that is far from the origin.

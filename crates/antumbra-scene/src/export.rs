@@ -144,7 +144,7 @@ impl Binary {
     fn mesh(&mut self, mesh: &Mesh) -> Value {
         let count = mesh.positions.len();
         let positions = self.floats(mesh.positions.iter().flat_map(Vec3::to_array), count, "VEC3");
-        let fold = |least: fn(Vec3, Vec3) -> Vec3| mesh.positions.iter().copied().reduce(least);
+        let fold = |min: fn(Vec3, Vec3) -> Vec3| mesh.positions.iter().copied().reduce(min);
         if let (Some(min), Some(max)) = (fold(Vec3::min), fold(Vec3::max)) {
             self.accessors[positions]["min"] = json!(min.to_array());
             self.accessors[positions]["max"] = json!(max.to_array());

@@ -108,9 +108,10 @@ mod tests {
     #[test]
     fn the_largest_scene_can_be_framed() {
         let mut scene = procedural::all()[0].scene(1);
-        (scene.cameras.clear(), scene.lights.clear());
+        scene.cameras.clear();
+        scene.lights.clear();
         let bounds = scene.bounds().unwrap();
-        let most = bounds.min.abs().max(bounds.max.abs()).max_element();
+        let max = bounds.min.abs().max(bounds.max.abs()).max_element();
         let scaled = |factor: f64| {
             let mut scene = scene.clone();
             for instance in &mut scene.instances {
@@ -119,7 +120,7 @@ mod tests {
             }
             scene
         };
-        let limit = f64::from(Scene::MAX_COORDINATE) / f64::from(most);
+        let limit = f64::from(Scene::MAX_COORDINATE) / f64::from(max);
         let largest = scaled(limit * 0.999);
         let (camera, light) = (largest.default_camera(), largest.default_light());
         assert_eq!(Scene { cameras: vec![camera], lights: vec![light], ..largest }.validate(), Ok(()));

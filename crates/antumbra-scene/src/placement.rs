@@ -105,10 +105,10 @@ impl Scene {
             .collect();
         let mut coarse: Vec<Option<f64>> = vec![None; largest.len()];
         for instance in &self.instances {
-            let Some(&most) = largest.get(instance.mesh) else { continue };
+            let Some(&max) = largest.get(instance.mesh) else { continue };
             let matrix = DMat3::from_mat4(instance.world_from_mesh);
             let scale = [matrix.x_axis, matrix.y_axis, matrix.z_axis].map(DVec3::length);
-            let step = f64::from(most.next_up() - most) * scale.into_iter().fold(0.0, f64::max);
+            let step = f64::from(max.next_up() - max) * scale.into_iter().fold(0.0, f64::max);
             let worst = &mut coarse[instance.mesh];
             if step > COARSE * reach && worst.is_none_or(|w| step > w) {
                 *worst = Some(step);

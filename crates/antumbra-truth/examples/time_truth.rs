@@ -2,15 +2,15 @@
 
 use antumbra_scene::Light;
 use antumbra_scene::procedural::{self, Procedural};
-use antumbra_truth::{CameraRays, Kernel, MapPlane, Tracer, Visibility};
+use antumbra_truth::{CameraRays, Kernel, TexelAxes, Tracer, Visibility};
 use std::time::Instant;
 
 /// Texels of `size` world units (for a spot: at distance 1), facing the light.
-fn map_plane(light: &Light, size: f64) -> MapPlane {
+fn texel_axes(light: &Light, size: f64) -> TexelAxes {
     let (Light::Directional { direction } | Light::Spot { direction, .. }) = *light;
     let right = direction.as_dvec3().any_orthonormal_vector();
     let down = direction.as_dvec3().cross(right).normalize();
-    MapPlane { right_per_texel: right * size, down_per_texel: down * size }
+    TexelAxes { right_per_texel: right * size, down_per_texel: down * size }
 }
 
 fn count_shadowable(visibility: &Visibility) -> f64 {
@@ -43,7 +43,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let start = Instant::now();
     let _ = tracer.supersampled(&rays, &light, 4, &|_| ());
     report("4x4", start, 32.0 * count);
-    let plane = map_plane(&light, 0.015);
+    let plane = texel_axes(&light, 0.015);
     for count in [5, 9] {
         let kernel = Kernel::new(vec![1.0; count])?;
         let start = Instant::now();

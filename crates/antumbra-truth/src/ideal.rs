@@ -26,7 +26,7 @@
 use crate::body::Bodies;
 use crate::kernel::scramble;
 use crate::shadow::{Progress, is_shadowable, to_light};
-use crate::{CameraRays, Hit, Kernel, MapPlane, MapPlanes, Tracer, Visibility};
+use crate::{CameraRays, Hit, Kernel, MapTexels, TexelAxes, Tracer, Visibility};
 use antumbra_scene::Light;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -50,8 +50,8 @@ enum Footprint {
 }
 
 impl Footprint {
-    fn new(light: &Light, plane: &MapPlane, reach: f64, hit: &Hit) -> Self {
-        let MapPlane { right_per_texel: right, down_per_texel: down } = *plane;
+    fn new(light: &Light, axes: &TexelAxes, reach: f64, hit: &Hit) -> Self {
+        let TexelAxes { right_per_texel: right, down_per_texel: down } = *axes;
         let lengths = DVec2::new(right.length(), down.length());
         let across = DVec2::new(hit.normal.dot(right), hit.normal.dot(down));
         match *light {
@@ -127,7 +127,7 @@ struct Ideal<'a> {
     tracer: &'a Tracer<'a>,
     light: &'a Light,
     kernel: &'a Kernel,
-    planes: &'a dyn MapPlanes,
+    texels: &'a dyn MapTexels,
     bodies: &'a Bodies,
 }
 
@@ -138,8 +138,7 @@ impl Ideal<'_> {
         if !is_shadowable(self.light, hit) {
             return None;
         }
-        let footprint =
-            Footprint::new(self.light, &self.planes.plane(hit.position), self.kernel.reach(), hit);
+        let footprint = Footprint::new(self.light, &self.texels.axes(hit.position), self.kernel.reach(), hit);
         let scramble = scramble(number);
         let of = range.end - range.start;
         let lit = range
@@ -175,7 +174,7 @@ fn mean(tallies: [Option<Tally>; 2]) -> Option<f32> {
 
 impl Tracer<'_> {
     /// The light-space ideal of a filter: visibility averaged over `kernel`, laid out in the map as
-    /// `planes` says where the pixel's point is, with the caster depth from rays; see the [crate's page](crate#the-light-space-ideal).
+    /// `texels` says where the pixel's point is, with the caster depth from rays; see the [crate's page](crate#the-light-space-ideal).
     ///
     /// Every pixel gets 64 rays, spread evenly over the kernel; one whose rays disagree, or that has
     /// such a neighbour, gets 256. In penumbrae the root mean square error is then about 0.005 (measured
@@ -189,10 +188,10 @@ impl Tracer<'_> {
         rays: &CameraRays,
         light: &Light,
         kernel: &Kernel,
-        planes: &dyn MapPlanes,
+        texels: &dyn MapTexels,
         progress: &(dyn Fn(f32) + Sync),
     ) -> Visibility {
-        let ideal = Ideal { tracer: self, light, kernel, planes, bodies: self.bodies() };
+        let ideal = Ideal { tracer: self, light, kernel, texels, bodies: self.bodies() };
         let hit = |pixel| self.trace(&rays.center_ray(pixel));
         let width = rays.width() as usize;
         let rows = Progress::new(progress, 2 * rays.height() as usize);
@@ -227,9 +226,9 @@ impl Tracer<'_> {
         hits: &[Hit],
         light: &Light,
         kernel: &Kernel,
-        planes: &dyn MapPlanes,
+        texels: &dyn MapTexels,
     ) -> Vec<Option<f32>> {
-        let ideal = Ideal { tracer: self, light, kernel, planes, bodies: self.bodies() };
+        let ideal = Ideal { tracer: self, light, kernel, texels, bodies: self.bodies() };
         hits.par_iter()
             .enumerate()
             .with_min_len(64)

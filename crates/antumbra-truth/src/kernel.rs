@@ -110,7 +110,7 @@ pub(crate) fn scramble(pixel: usize) -> [u32; 2] {
 /// itself. For a spot they are perpendicular to its axis and measure the plane at distance 1 from
 /// the apex.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MapPlane {
+pub struct TexelAxes {
     /// One texel to the right, world units.
     pub right_per_texel: DVec3,
     /// One texel down, world units.
@@ -118,13 +118,13 @@ pub struct MapPlane {
 }
 
 /// Which map shades a point in the world: one for all, or one of several cascades.
-pub trait MapPlanes: Sync {
+pub trait MapTexels: Sync {
     /// How the texels of that map lie.
-    fn plane(&self, point: DVec3) -> MapPlane;
+    fn axes(&self, point: DVec3) -> TexelAxes;
 }
 
-impl MapPlanes for MapPlane {
-    fn plane(&self, _: DVec3) -> MapPlane {
+impl MapTexels for TexelAxes {
+    fn axes(&self, _: DVec3) -> TexelAxes {
         *self
     }
 }

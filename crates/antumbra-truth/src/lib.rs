@@ -64,6 +64,6 @@ mod triangle;
 pub use camera::{CameraRays, Ray};
 pub use coverage::{Coverage, CoverageTolerance, Difference};
 pub use error::TruthError;
-pub use kernel::{Kernel, MapPlane, MapPlanes};
+pub use kernel::{Kernel, MapTexels, TexelAxes};
 pub use shadow::Visibility;
 pub use tracer::{Hit, Tracer};

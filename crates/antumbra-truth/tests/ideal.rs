@@ -5,17 +5,17 @@
 mod common;
 
 use antumbra_scene::Light;
-use antumbra_truth::{CameraRays, Kernel, MapPlane, Tracer};
+use antumbra_truth::{CameraRays, Kernel, TexelAxes, Tracer};
 use common::{geometry, grid, picture, sphere, sun};
 use glam::{DVec3, Vec3};
 
 /// Texels of side `size`, turned by `angle` about the light's axis.
-fn plane(light: &Light, size: f64, angle: f64) -> MapPlane {
+fn plane(light: &Light, size: f64, angle: f64) -> TexelAxes {
     let (Light::Directional { direction } | Light::Spot { direction, .. }) = *light;
     let axis = direction.as_dvec3().normalize();
     let (a, b) = axis.any_orthonormal_pair();
     let (sin, cos) = angle.sin_cos();
-    MapPlane { right_per_texel: size * (cos * a + sin * b), down_per_texel: size * (cos * b - sin * a) }
+    TexelAxes { right_per_texel: size * (cos * a + sin * b), down_per_texel: size * (cos * b - sin * a) }
 }
 
 /// Share of the kernel left of `x` texels, straight from the definition.
@@ -149,7 +149,7 @@ fn spots_widen_with_distance() {
     let tracer = Tracer::new(&geometry).unwrap();
     let light = Light::Spot { position: Vec3::Y * 3.0, direction: Vec3::NEG_Y, outer_angle: 1.0 };
     let kernel = Kernel::new(vec![1.0; 5]).unwrap();
-    let plane = MapPlane { right_per_texel: DVec3::X * 0.01, down_per_texel: DVec3::Z * 0.01 };
+    let plane = TexelAxes { right_per_texel: DVec3::X * 0.01, down_per_texel: DVec3::Z * 0.01 };
     let rays = picture(DVec3::new(0.4, 0.8, 0.0), DVec3::ZERO, [100, 75]);
     let ideal = tracer.light_space_ideal(&rays, &light, &kernel, &plane, &|_| ());
     let mut mixed = 0;

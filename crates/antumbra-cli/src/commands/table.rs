@@ -9,7 +9,7 @@ use std::io::{self, IsTerminal, Write};
 /// Space between columns.
 const GAP: usize = 2;
 /// Least width to which the text of a last column is broken.
-const LEAST_TEXT: usize = 24;
+const MIN_TEXT: usize = 24;
 
 /// Columns padded to their widest cell; numbers, which begin with a digit, to the right. The second cell of a
 /// row with fewer cells than columns goes across the rest.
@@ -107,7 +107,7 @@ fn write(out: &mut impl Write, header: &[&str], rows: &[Vec<String>], width: usi
     // Alone beside the first column it may be broken further.
     let alone = width.saturating_sub(columns[0].width() + GAP);
     if let Some(last) = columns.last_mut().filter(|last| all > width && !last.numeric) {
-        last.break_cells(width.saturating_sub(all - last.width()).max(LEAST_TEXT.min(alone)));
+        last.break_cells(width.saturating_sub(all - last.width()).max(MIN_TEXT.min(alone)));
     }
     let mut first = 1;
     for end in blocks(&columns, width) {

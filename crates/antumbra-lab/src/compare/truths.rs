@@ -70,7 +70,7 @@ pub(super) fn trace(
         coverage_agreement: coverage.agreement(),
         coverage_explained: coverage_explained(&coverage, &hits),
         shadowable_pixels: hard.shadowable.iter().filter(|s| **s).count() as u64,
-        no_shadow: metrics::no_shadow_baseline(&hard.image, &hard.shadowable)?.heard(),
+        no_shadow: metrics::no_shadow_baseline(&hard.image, &hard.shadowable)?.reliable(),
         images: TruthImages {
             hard: save("hard", &hard)?,
             light_space: save("light-space", &light_space)?,

@@ -22,8 +22,8 @@ const AS_GOOD: f64 = 1.1;
 /// The technique to take for filtered shadows: the quickest of those whose error is as good as the smallest.
 fn recommended(results: &Results) -> Option<&TechniqueResult> {
     let error = |t: &TechniqueResult| t.scores.light_space.rmse;
-    let least = error(best(results, error)?);
-    let as_good = results.valid().filter(|t| error(t) <= AS_GOOD * least);
+    let min = error(best(results, error)?);
+    let as_good = results.valid().filter(|t| error(t) <= AS_GOOD * min);
     as_good.min_by(|a, b| a.time.frame.median_ms.total_cmp(&b.time.frame.median_ms))
 }
 

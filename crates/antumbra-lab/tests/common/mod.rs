@@ -115,7 +115,7 @@ impl Picture {
         let taps = Kernel::new(Weights::Gaussian, KERNEL, 0.0).taps;
         let kernel = antumbra_truth::Kernel::new(taps.iter().map(|w| f64::from(*w)).collect()).unwrap();
         let tracer = Tracer::new(&self.geometry).unwrap();
-        tracer.light_space_ideal(&self.rays(), &self.light, &kernel, &map_views::map_plane(view), &|_| ())
+        tracer.light_space_ideal(&self.rays(), &self.light, &kernel, &map_views::texel_axes(view), &|_| ())
     }
 }
 

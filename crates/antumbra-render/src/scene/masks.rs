@@ -35,8 +35,8 @@ impl Masks {
         let (masks, alphas) = masks(geometry, first);
         let corners = corners(geometry, first);
         let contents: [&[u8]; 3] = [bytemuck::cast_slice(&masks), &alphas, bytemuck::cast_slice(&corners)];
-        let most = gpu.device.limits().max_storage_buffer_binding_size;
-        if contents.iter().any(|bytes| bytes.len() as u64 > most) {
+        let max = gpu.device.limits().max_storage_buffer_binding_size;
+        if contents.iter().any(|bytes| bytes.len() as u64 > max) {
             return None;
         }
         let layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {

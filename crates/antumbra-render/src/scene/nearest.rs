@@ -9,15 +9,15 @@ use glam::{DVec3, Vec3};
 pub(super) fn distance(geometry: &Geometry, point: Vec3) -> f32 {
     // Squares of single precision would leave its range in very large and very small scenes.
     let point = point.as_dvec3();
-    let mut least = f64::INFINITY;
+    let mut min = f64::INFINITY;
     for t in 0..geometry.triangle_count() {
         let [a, b, c] = geometry.triangle(t).map(|corner| corner.as_dvec3() - point);
         let outside = a.min(b).min(c).max(-a.max(b).max(c)).max(DVec3::ZERO);
-        if outside.length_squared() < least * least {
-            least = least.min(closest([a, b, c]).length());
+        if outside.length_squared() < min * min {
+            min = min.min(closest([a, b, c]).length());
         }
     }
-    least as f32
+    min as f32
 }
 
 /// The point of a triangle that is closest to the origin (Ericson, Real-Time Collision Detection, 5.1.5).

@@ -60,10 +60,10 @@ pub(super) fn table_1(bench: &Workbench<'_>) -> Result<Page> {
 }
 
 fn slower(ours: &[[f64; 4]]) -> Verdict {
-    let least = ours.iter().flatten().copied().reduce(f64::min);
+    let min = ours.iter().flatten().copied().reduce(f64::min);
     Verdict::new(
         "CSMs are slower than PCF of one bilinear lookup",
-        [more("smallest ratio to PCF", least, "1", 1.0)],
+        [more("smallest ratio to PCF", min, "1", 1.0)],
     )
 }
 

@@ -134,16 +134,16 @@ fn falling(shares: &[f64]) -> Option<f64> {
 }
 
 fn underestimated(offsets: &[f64]) -> Verdict {
-    let [least, most] = ends(offsets);
+    let [min, max] = ends(offsets);
     Verdict::new(
         "An offset that is too small flags surfaces that cannot fail",
         [
             at_least("least fall of the share from offset to offset", falling(offsets), "none", 1.0),
             more(
                 "share with the smallest offset",
-                least,
+                min,
                 "1.5 times that with the largest",
-                most.map(|m| 1.5 * m),
+                max.map(|m| 1.5 * m),
             ),
         ],
     )
@@ -202,10 +202,10 @@ fn grows(zmax: &[f64], threshold: &[f64]) -> Verdict {
 }
 
 fn conservative(zmax: &[f64], threshold: &[f64]) -> Verdict {
-    let least = zmax.iter().zip(threshold).map(|(z, t)| z - t).reduce(f64::min);
+    let min = zmax.iter().zip(threshold).map(|(z, t)| z - t).reduce(f64::min);
     Verdict::new(
         "Z-Max is conservative: it never finds fewer pixels than Threshold",
-        [at_least("smallest surplus of Z-Max", least, "none", 0.0)],
+        [at_least("smallest surplus of Z-Max", min, "none", 0.0)],
     )
 }
 

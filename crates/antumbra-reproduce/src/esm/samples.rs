@@ -46,8 +46,8 @@ pub(super) fn figure_7(bench: &Workbench<'_>) -> Result<Page> {
     let blurred = enough(pcf_errors, errors[esm + 1]);
     page.verdict(many("ESM with a 5×5 Gauss", blurred.map(|i| BUDGETS[i]), 64));
     page.verdict(slower(pcf_ratios[plain.unwrap_or(esm - 1)]));
-    if let Some(least) = pcf_errors.iter().copied().reduce(f64::min) {
-        let settled = enough(pcf_errors, 1.02 * least).map_or(BUDGETS[esm - 1], |i| BUDGETS[i]);
+    if let Some(min) = pcf_errors.iter().copied().reduce(f64::min) {
+        let settled = enough(pcf_errors, 1.02 * min).map_or(BUDGETS[esm - 1], |i| BUDGETS[i]);
         page.text(format!(
             "From {settled} samples on, more of them bring the error of PCF down by less than 2 %: a footprint of this \
              size holds no more texels."

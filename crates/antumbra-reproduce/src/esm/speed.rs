@@ -64,10 +64,10 @@ pub(super) fn table_1(bench: &Workbench<'_>) -> Result<Page> {
 }
 
 fn faster_than_csm(ours: &[[f64; 4]]) -> Verdict {
-    let least = ours.iter().map(|r| r[3]).reduce(f64::min);
+    let min = ours.iter().map(|r| r[3]).reduce(f64::min);
     Verdict::new(
         "ESM is significantly faster than CSM",
-        [at_least("smallest ratio of CSM's frame time to ESM's", least, "1.5", 1.5)],
+        [at_least("smallest ratio of CSM's frame time to ESM's", min, "1.5", 1.5)],
     )
 }
 
@@ -116,10 +116,10 @@ pub(super) fn table_2(bench: &Workbench<'_>) -> Result<Page> {
 }
 
 fn cheap(ratios: &[f64]) -> Verdict {
-    let most = ratios.iter().copied().reduce(f64::max);
+    let max = ratios.iter().copied().reduce(f64::max);
     Verdict::new(
         "Z-Max takes at most a half more than Threshold",
-        [at_most("largest ratio of Z-Max to Threshold", most, "the paper's largest, 544/358", 544.0 / 358.0)],
+        [at_most("largest ratio of Z-Max to Threshold", max, "the paper's largest, 544/358", 544.0 / 358.0)],
     )
 }
 

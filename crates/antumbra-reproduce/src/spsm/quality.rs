@@ -223,10 +223,10 @@ pub(super) fn figure_14(bench: &Workbench<'_>) -> Result<Page> {
 }
 
 fn fewer(shares: &[f64]) -> Verdict {
-    let most = shares.windows(2).map(|pair| pair[1] / pair[0]).reduce(f64::max);
+    let max = shares.windows(2).map(|pair| pair[1] / pair[0]).reduce(f64::max);
     Verdict::new(
         "The larger the map, the fewer pixels need silhouette recovery",
-        [less("largest quotient of the shares of a map and the next smaller", most, "1", 1.0)],
+        [less("largest quotient of the shares of a map and the next smaller", max, "1", 1.0)],
     )
 }
 

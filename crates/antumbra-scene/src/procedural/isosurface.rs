@@ -103,11 +103,11 @@ impl Grid {
             if connected(mask) && connected(!mask) {
                 continue;
             }
-            let least = corners
+            let min = corners
                 .into_iter()
                 .filter(outside)
                 .min_by(|&a, &b| self.values[a].total_cmp(&self.values[b]));
-            if let Some(corner) = least {
+            if let Some(corner) = min {
                 self.values[corner] = -0.05 * self.cell as f32;
                 found = true;
             }

@@ -34,7 +34,7 @@ fn build(seed: u64) -> Scene {
     let plinth = scene.mesh("plinth", shapes::turned(&plinth, 96), stone);
     scene.place(plinth, Mat4::IDENTITY);
     let model = model();
-    let foot = model.positions.iter().fold(f32::INFINITY, |least, p| least.min(p.y));
+    let foot = model.positions.iter().fold(f32::INFINITY, |min, p| min.min(p.y));
     let model = scene.mesh("tangle", model, coral);
     let lift = Mat4::from_translation(Vec3::Y * (0.135 - foot));
     scene.place(model, lift * Mat4::from_rotation_y(random.between(0.0, std::f32::consts::TAU)));

@@ -84,7 +84,7 @@ impl Table {
 
     /// Component `k` of element `i` as a number, normalised integers mapped to [0,1] or [−1,1].
     pub(super) fn float(&self, i: usize, k: usize) -> f32 {
-        let scale = |value: f32, most: f32| if self.normalized { (value / most).max(-1.0) } else { value };
+        let scale = |value: f32, max: f32| if self.normalized { (value / max).max(-1.0) } else { value };
         match self.format {
             Format::I8 => scale(f32::from(i8::from_le_bytes(self.raw(i, k))), 127.0),
             Format::U8 => scale(f32::from(u8::from_le_bytes(self.raw(i, k))), 255.0),
@@ -209,10 +209,10 @@ impl Asset {
             self.fits(view, &element, placement)?;
         } else {
             // Zeros without bytes behind them: no more than the file could need.
-            let most =
+            let max =
                 self.document.buffers.iter().map(|b| b.byte_length).fold(1 << 16, usize::saturating_add);
-            if accessor.count > most {
-                let allowed = format!("without a bufferView at most {most} are allowed");
+            if accessor.count > max {
+                let allowed = format!("without a bufferView at most {max} are allowed");
                 return Err(invalid(format!("{element}.count"), accessor.count, allowed));
             }
         }

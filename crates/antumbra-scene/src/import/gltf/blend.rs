@@ -26,11 +26,11 @@ pub(super) fn settle(scene: &mut Scene, passing: &[Passing], blend: Blend, notes
                 notes.add(element, left_out(blend));
             }
             Passing::Blend => match alpha_range(scene, m) {
-                [least, _] if least >= HALF => {
+                [min, _] if min >= HALF => {
                     scene.materials[m].alpha = AlphaMode::Opaque;
                     notes.add(element, "blends; its alpha is ½ or more everywhere, so it casts as if opaque");
                 }
-                [_, most] if most < HALF => {
+                [_, max] if max < HALF => {
                     gone[m] = true;
                     notes.add(element, left_out(blend));
                 }
@@ -67,11 +67,9 @@ fn alpha_range(scene: &Scene, material: usize) -> [f32; 2] {
     let surface = &scene.materials[material];
     let image = surface.base_color_image.and_then(|i| scene.images.get(i)).map_or([1.0; 2], |image| {
         let alphas = image.rgba.iter().skip(3).step_by(4);
-        alphas
-            .fold([u8::MAX, 0], |[least, most], &a| [least.min(a), most.max(a)])
-            .map(|a| f32::from(a) / 255.0)
+        alphas.fold([u8::MAX, 0], |[min, max], &a| [min.min(a), max.max(a)]).map(|a| f32::from(a) / 255.0)
     });
     let colors = scene.meshes.iter().filter(|mesh| mesh.material == material).flat_map(|mesh| &mesh.colors);
-    let vertices = colors.fold([f32::MAX, 0.0_f32], |[least, most], c| [least.min(c.w), most.max(c.w)]);
+    let vertices = colors.fold([f32::MAX, 0.0_f32], |[min, max], c| [min.min(c.w), max.max(c.w)]);
     [0, 1].map(|end| surface.base_color.w * image[end] * vertices[end])
 }

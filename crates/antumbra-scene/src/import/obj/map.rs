@@ -23,7 +23,7 @@ impl Map {
         let mut rest = text.trim();
         while let Some((option, after)) = word(rest).filter(|(option, _)| option.starts_with('-')) {
             let option = option.to_ascii_lowercase();
-            let (least, most) = match option.as_str() {
+            let (min, max) = match option.as_str() {
                 "-s" | "-o" | "-t" => (1, 3),
                 "-mm" => (2, 2),
                 "-blendu" | "-blendv" | "-cc" | "-clamp" | "-bm" | "-boost" | "-texres" | "-imfchan"
@@ -32,9 +32,9 @@ impl Map {
             };
             let mut values = Vec::new();
             rest = after;
-            while let Some((value, after)) = word(rest).filter(|(value, _)| {
-                values.len() < least || values.len() < most && value.parse::<f32>().is_ok()
-            }) {
+            while let Some((value, after)) = word(rest)
+                .filter(|(value, _)| values.len() < min || values.len() < max && value.parse::<f32>().is_ok())
+            {
                 values.push(value);
                 rest = after;
             }

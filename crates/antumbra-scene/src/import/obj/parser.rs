@@ -232,7 +232,7 @@ impl Parser {
             let Some(place) = place.filter(|place| k < 3 && *place < NONE as usize) else {
                 return Err(no_vertex(text, corner, line, count));
             };
-            if place >= count && self.ahead[k].as_ref().is_none_or(|(most, ..)| place > *most) {
+            if place >= count && self.ahead[k].as_ref().is_none_or(|(max, ..)| place > *max) {
                 self.ahead[k] = Some((place, line, corner.into()));
             }
             numbers[k] = place as u32;

@@ -16,13 +16,13 @@ pub(super) fn octahedral_16(bytes: &mut [u8]) {
     }
 }
 
-fn octahedral([x, y, one]: [f32; 3], most: f32) -> [i32; 3] {
+fn octahedral([x, y, one]: [f32; 3], max: f32) -> [i32; 3] {
     let z = one - x.abs() - y.abs();
     // The lower half is folded outwards.
     let fold = z.min(0.0);
     let x = x + if x >= 0.0 { fold } else { -fold };
     let y = y + if y >= 0.0 { fold } else { -fold };
-    let scale = most / (x * x + y * y + z * z).sqrt();
+    let scale = max / (x * x + y * y + z * z).sqrt();
     [x, y, z].map(|value| rounded(value * scale))
 }
 
@@ -73,11 +73,11 @@ pub(super) fn color_16(bytes: &mut [u8]) {
     }
 }
 
-fn color(luma: i32, [co, cg]: [i32; 2], alpha: i32, most: f32) -> [i32; 4] {
+fn color(luma: i32, [co, cg]: [i32; 2], alpha: i32, max: f32) -> [i32; 4] {
     // All bits up to the highest that is set.
     let one = [1, 2, 4, 8].into_iter().fold(alpha, |bits, shift| bits | bits >> shift);
     let full = alpha << 1 & one | alpha & 1;
-    let scale = most / one as f32;
+    let scale = max / one as f32;
     [luma + co - cg, luma + cg, luma - co - cg, full].map(|value| (value as f32 * scale + 0.5) as i32)
 }
 

@@ -23,9 +23,9 @@ pub(super) fn decode(bytes: &[u8], count: usize, size: usize) -> Result<Vec<u8>,
     let (&header, body) = bytes.split_first().ok_or(SHORT)?;
     let version = version(header, MARK, 1)?;
     // At the end: the vertex before the first, and, since version 1, the kind of each four lanes.
-    let (kinds, least) = if version == 0 { (0, 32) } else { (size / 4, 24) };
+    let (kinds, min) = if version == 0 { (0, 32) } else { (size / 4, 24) };
     let tail = size + kinds;
-    let start = body.len().checked_sub(tail.max(least)).ok_or(SHORT)?;
+    let start = body.len().checked_sub(tail.max(min)).ok_or(SHORT)?;
     let mut reader = Reader(&body[..start]);
     let (first, kinds) = body[body.len() - tail..].split_at(size);
     let mut last = first.to_vec();
