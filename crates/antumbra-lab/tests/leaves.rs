@@ -17,13 +17,13 @@ const RIBS: u32 = 14;
 
 fn main() {
     let mut trials = Trials::default();
-    for (size, folds) in [(96, 0.03), (96, 0.08), (192, 0.03), (192, 0.08)] {
+    for (size, folds) in [(192, 0.03), (192, 0.08), (256, 0.08)] {
         trials.add(format!("folds of {folds} on a map of {size}"), move |gpu| {
-            let mut shot = Picture::new(gpu, &plant(folds), RESOLUTION);
-            let truth = shot.hard_truth();
+            let mut picture = Picture::new(gpu, &plant(folds), RESOLUTION);
+            let truth = picture.hard_truth();
             let [hard, exact, dpm] = ["hard", "exact", "dpm"].map(|spec| {
                 let technique = technique::parse(spec).unwrap();
-                let score = score(&shot.answer(technique.as_ref(), size, Bias::Auto), &truth);
+                let score = score(&picture.answer(technique.as_ref(), size, Bias::Auto), &truth);
                 (score.acne.unwrap(), score.pixel_match)
             });
             if std::env::var_os("ANTUMBRA_MEASURE").is_some() {
@@ -31,7 +31,7 @@ fn main() {
             }
             assert!(hard.0 > 0.01, "a plain map has no difficulty: {hard:?}");
             assert!(exact.0 < 1e-4 && exact.1 > 0.9995, "{exact:?}");
-            assert!(dpm.0 < 0.9 * hard.0 && dpm.1 > hard.1, "{dpm:?}, hard {hard:?}");
+            assert!(dpm.0 < 0.7 * hard.0 && dpm.1 > hard.1, "{dpm:?}, hard {hard:?}");
         });
     }
     trials.run();

@@ -16,14 +16,9 @@ fn key_number(key: u32, bits: u32) -> u32 {
     return ~key & ((1u << bits) - 1u);
 }
 
-/// Step in which the triangle begins.
-fn key_begin(key: u32, bits: u32) -> u32 {
-    return (~key & ~key_near) >> bits;
-}
-
 /// Whether the triangle lies behind all that is in that step.
 fn key_deeper(key: u32, step: u32, bits: u32) -> bool {
-    return key_begin(key, bits) > step;
+    return ((~key & ~key_near) >> bits) > step;
 }
 
 /// Whether its near side is seen.

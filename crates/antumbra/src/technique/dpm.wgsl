@@ -35,9 +35,9 @@ fn dpm_stops(view: u32, n: u32, a: vec3f, b: vec3f, c: vec3f) -> bool { // cut-o
 ///
 /// Full texels may lack triangles: those that are less worth keeping than the last one. The far sides of
 /// closed casters alone make their whole shadow, so that a receiver which lies before a far side that was
-/// kept is lit; unless some single sheet is missing, which the texel's centre is asked for. Neither may the
-/// receiver's own surface count, whose twin with the other winding is a far side too: it gets as much room as it
-/// rises within a texel.
+/// kept is lit; so is one that lies on a far side that was kept, as leaves do whose triangles have twins with the
+/// other winding. Unless some single sheet is missing, which the texel's centre is asked for. There the receiver's
+/// own surface must not count: it gets as much room as it rises within a texel.
 fn dpm_class_at(casters: texture_depth_2d_array, point: vec2f, view: u32, depth: f32, gain: vec2f) -> u32 {
     let size = textureDimensions(casters);
     let texel = min(vec2u(max(point, vec2f(0.0))), size - 1u);
@@ -46,6 +46,8 @@ fn dpm_class_at(casters: texture_depth_2d_array, point: vec2f, view: u32, depth:
     let step = key_step(key_linear(depth, shadow_near_over_far(view)), bits);
     let ray = vec3f(point, 0.0);
     var key = 0u;
+    // Whether the receiver's own triangle, or its twin, is kept: it is met behind, by what biases are.
+    var own = false;
     for (var i = start; i < start + dpm_keeps; i += 1u) {
         key = shadow_key(i);
         if key == 0u {
@@ -62,14 +64,15 @@ fn dpm_class_at(casters: texture_depth_2d_array, point: vec2f, view: u32, depth:
         let a = shadow_corner(view, n, 0u) - ray;
         let b = shadow_corner(view, n, 1u) - ray;
         let c = shadow_corner(view, n, 2u) - ray;
-        if ray_depth(a, b, c) < depth {
+        let met = ray_depth(a, b, c);
+        if met < depth {
             if !dpm_stops(view, n, a, b, c) { continue; } // cut-outs
             return dpm_shadowed;
         }
+        own = own || met - depth < 2e-5 + 0.05 * dot(abs(gain), vec2f(1.0));
     }
     let before = depth - dot(abs(gain), vec2f(1.0));
-    let least = key_step(key_linear(before, shadow_near_over_far(view)), bits);
-    let last = key_is_near(key) || key_begin(key, bits) >= least;
+    let last = own || key_is_near(key) || key_deeper(key, step, bits);
     let complete = last && !dpm_occluded(casters, vec2i(texel), point, view, before, gain);
     return select(dpm_uncertain, dpm_lit, complete);
 }
