@@ -57,7 +57,7 @@
 //!
 //! # Casters and receivers
 //!
-//! - What casters draw depends on what a technique keeps ([`Technique::caster`]). Most keep depth, which your
+//! - What casters draw depends on what a technique keeps ([`Description::caster`]). Most keep depth, which your
 //!   own pipelines draw once per view; `stratified` asks for it n² times per view, each time from a view
 //!   that is shifted by a fraction of a texel, so place casters by [`CasterPass::view`]. `rgsm`, `spsm`,
 //!   `dpm` and `exact` keep triangles: [`CasterPass::draw_mesh`] draws a [`CasterMesh`] by pipelines of the
@@ -114,7 +114,7 @@
 //!
 //! Where the casters' own depth is compared, and where triangles are kept, there is neither 2 nor 3.
 //!
-//! To add a technique of your own, implement [`Technique`]; nothing in the crate knows the list.
+//! To add a technique of your own, implement [`Technique`], whose page shows how; nothing in the crate knows the list.
 //!
 //! # Units
 //!
