@@ -204,3 +204,21 @@ fn the_convert_settings_are_floats_in_order() {
         }
     }
 }
+
+/// Blurs read the beginning of what the convert pass reads.
+#[test]
+fn blurs_read_their_reach_where_it_is_written() {
+    let steps = |spec: &str| {
+        pass::plan(&composed(parse(spec).unwrap().as_ref()), &Capabilities::least(), Size::square(64))
+    };
+    let members = |steps: &[pass::Step], label: &str, name: &str| {
+        let step = steps.iter().find(|step| step.label == label).unwrap();
+        layout(&parse_str(&step.shader).unwrap(), name).0
+    };
+    for spec in ["vsm.width=0.1", "esm.classifier=zmax,width=0.1"] {
+        let steps = steps(spec);
+        let (blur, convert) = (members(&steps, "blur", "Blur"), members(&steps, "convert", "Convert"));
+        assert_eq!(blur.last().unwrap().0, "reach");
+        assert_eq!(blur, convert[..blur.len()], "{spec}");
+    }
+}
