@@ -65,7 +65,7 @@ fn answers(
                 pass.draw(0..3, 0..1);
             })?;
         }
-        Caster::Triangles(_) | Caster::Lists | Caster::Ranked { .. } => {
+        _ => {
             let triangle = triangle(gpu, caster)?;
             shadows.encode(&mut encoder, |pass| pass.draw_mesh(&triangle, ..))?;
         }

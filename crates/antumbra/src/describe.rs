@@ -12,7 +12,7 @@ mod description;
 pub(crate) mod map;
 pub(crate) mod wgsl;
 
-pub use caster::{Caster, Coverage, List, Ranked};
+pub use caster::{Caster, Coverage};
 pub use description::Description;
 pub use map::{Access, Combine, Encode, Map, Pass};
 pub use wgsl::{Binding, Class, Constant, DepthSpace, Setting};
@@ -120,8 +120,7 @@ pub struct About {
 ///
 /// Functions that composition writes beside it, and that every function may call, read what is set at run time:
 /// `x_NAME() -> f32` for each of [`Description::settings`], `x_NAME(view: u32) -> f32` for each of
-/// [`Description::widths`], and what comes with [`Description::blur`] and buffers
-/// ([`Binding::Ranked`]). If there are [classes](Description::classes) it also defines `x_class`, with
+/// [`Description::widths`], and what comes with [`Description::blur`] and with what casters leave ([`Caster`]). If there are [classes](Description::classes) it also defines `x_class`, with
 /// the same parameters. The first line may be `//! needs a b`: shared files, and slots that
 /// [`Description::slots`] fill.
 pub trait Technique: Debug + Send + Sync {

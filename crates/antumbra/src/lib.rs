@@ -149,8 +149,9 @@
 //!
 //! # Features
 //!
-//! `serde`: settings of techniques, [`Filter`], [`technique::Bias`] and what a map takes ([`MemoryItem`]) can be
-//! saved and loaded.
+//! - `serde`: settings of techniques, [`Filter`], [`technique::Bias`] and what a map takes ([`MemoryItem`]) can be
+//!   saved and loaded.
+//! - `store`: techniques may keep triangles by id in a way of their own (`antumbra::store`). Not settled.
 
 /// The code of the README.
 #[cfg(doctest)]
@@ -161,6 +162,7 @@ mod bias;
 mod bound;
 mod camera;
 mod capabilities;
+mod cast;
 mod describe;
 mod error;
 mod filter;
@@ -174,18 +176,24 @@ mod shader;
 mod table;
 pub mod technique;
 
+/// How triangles are kept by id, for stores of one's own. Not settled: minor versions may change it.
+#[cfg(feature = "store")]
+pub mod store {
+    pub use crate::cast::{Array, Element, Image, OwnStore, Site, Step, Store};
+}
+
 pub use glam;
 pub use wgpu;
 
 pub use camera::visible_hull;
 pub use capabilities::Capabilities;
+pub use cast::{Capacity, CasterMesh, CasterPass, CutoutCaster, MeshPart};
 pub use error::{CasterError, DescriptionError, LightError, MeshError, SettingError, Unsupported};
 pub use filter::{Filter, Sampling, Values};
 pub use kernel::{Kernel, Weights};
 pub use light::{Bounds, CameraFit, Cascades, Fit, Light, Size, View};
 pub use map::{
-    Capacity, CasterMesh, CasterPass, CutoutCaster, DEPTH_FORMAT, Lifetime, Memory, MemoryItem, MeshPart,
-    NoProbe, Options, Pipelines, Probe, ShadowMap, TooManyViews,
+    DEPTH_FORMAT, Lifetime, Memory, MemoryItem, NoProbe, Options, Pipelines, Probe, ShadowMap, TooManyViews,
 };
 pub use parameter::{Choice, Field, Parameter};
 pub use precision::Precision;

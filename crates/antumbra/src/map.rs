@@ -2,9 +2,10 @@
 
 use crate::{
     capabilities::Capabilities,
+    cast::{self, Capacity, Cast, Plan},
     describe::{Description, Technique},
     light::{Size, View},
-    shader::{Composition, MapSize, ShaderText},
+    shader::{Composition, ShaderText},
 };
 use glam::Vec2;
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -12,39 +13,24 @@ use wgpu::TextureFormat;
 
 mod answer;
 mod build;
-mod capacity;
-mod cast;
-mod caster;
 mod check;
-mod cutout;
 mod draw;
 mod encode;
 mod explain;
-mod lists;
 mod memory;
-mod mesh;
-mod numbered;
 mod options;
-mod pieces;
 mod pipelines;
-mod ranked;
 mod receiver;
 mod textures;
 mod uniforms;
 
-pub use capacity::Capacity;
-pub(crate) use capacity::splits;
-pub use cast::CasterPass;
-use caster::TriangleCaster;
-pub use cutout::CutoutCaster;
+pub(crate) use answer::ask_now;
 use draw::Draw;
-use lists::Lists;
+pub(crate) use draw::compute_pass;
 pub use memory::{Lifetime, Memory, MemoryItem};
-pub use mesh::{CasterMesh, MeshPart};
 pub use options::{NoProbe, Options, Probe, TooManyViews};
 pub use pipelines::Pipelines;
-use ranked::RankedTriangles;
-use textures::Textures;
+pub(crate) use textures::{Textures, written};
 use uniforms::Uniforms;
 
 /// Format of the depth that casters draw into.
@@ -61,19 +47,13 @@ pub struct ShadowMap {
     technique: Box<dyn Technique>,
     composition: Composition,
     capabilities: Capabilities,
-    size: Size,
-    room: u32,
-    capacity: Capacity,
+    options: Options,
     textures: Textures,
     uniforms: Uniforms,
     draws: Vec<Vec<Draw>>,
-    /// For techniques whose casters are triangles.
-    triangles: Option<TriangleCaster>,
-    /// For those that keep all of them.
-    lists: Option<Lists>,
-    /// For those that keep the first ones by rank.
-    ranked: Option<RankedTriangles>,
-    /// Triangles that they were given.
+    /// What the casters leave, beside depth and maps.
+    cast: Box<dyn Cast>,
+    /// Ids that the last casters took.
     drawn: AtomicU32,
     layout: wgpu::BindGroupLayout,
     bind_group: wgpu::BindGroup,
@@ -92,23 +72,19 @@ impl ShadowMap {
     /// # Errors
     /// [`TooManyViews`], and then the previous views stay.
     pub fn prepare(&mut self, queue: &wgpu::Queue, views: &[View]) -> Result<(), TooManyViews> {
-        if views.len() > self.room as usize {
-            return Err(TooManyViews { given: views.len(), room: self.room as usize });
+        let room = self.options.views as usize;
+        if views.len() > room {
+            return Err(TooManyViews { given: views.len(), room });
         }
         self.views.clear();
         self.views.extend_from_slice(views);
         self.caster_views.clear();
-        let jittered = |view: &View, offset: Vec2| view.jittered(self.size, offset);
+        let jittered = |view: &View, offset: Vec2| view.jittered(self.options.size, offset);
         let offsets = &self.composition.description.sample_offsets;
         self.caster_views
             .extend(views.iter().flat_map(|view| offsets.iter().map(move |o| jittered(view, *o))));
         self.uniforms.write(queue, views);
-        if let Some(triangles) = &self.triangles {
-            triangles.write(queue, views);
-        }
-        if let Some(numbered) = self.numbered() {
-            numbered.write(queue, views);
-        }
+        self.cast.write(queue, views);
         Ok(())
     }
 
@@ -117,7 +93,7 @@ impl ShadowMap {
     /// [`Capacity::triangles_per_texel`] that there is memory for; length of the longest list.
     #[must_use]
     pub fn list_totals(&self) -> Option<&wgpu::Buffer> {
-        self.lists.as_ref().map(Lists::totals)
+        self.cast.totals()
     }
 
     /// Numbers that the last [`encode`](Self::encode) gave to triangles in the view with most, for
@@ -174,18 +150,23 @@ impl ShadowMap {
     /// `caster_tag` said of it.
     #[must_use]
     pub fn wgsl(&self, group: u32) -> ShaderText {
-        let size = MapSize {
-            views: self.room,
-            capacity: self.capacity,
-            splits: self.ranked.as_ref().map(RankedTriangles::splits).unwrap_or_default(),
-        };
-        self.composition.receiver(size, group)
+        self.composition.receiver(self.plan().as_ref(), self.options.views, group)
+    }
+
+    /// What its store is planned like.
+    pub(crate) fn plan(&self) -> Box<dyn Plan + '_> {
+        cast::plan(&self.composition, &self.capabilities, &self.options)
+    }
+
+    /// What the casters leave on the GPU.
+    pub(crate) fn cast(&self) -> &dyn Cast {
+        self.cast.as_ref()
     }
 
     /// Memory for triangles that it was made with.
     #[must_use]
     pub fn capacity(&self) -> Capacity {
-        self.capacity
+        self.options.capacity
     }
 
     /// The technique that it was made for.
@@ -203,7 +184,7 @@ impl ShadowMap {
     /// Texels of each view.
     #[must_use]
     pub fn size(&self) -> Size {
-        self.size
+        self.options.size
     }
 
     /// Free texels that a view should leave on each side ([`Fit::margin_texels`](crate::Fit)).
@@ -223,27 +204,21 @@ impl ShadowMap {
     /// [`Probe::pass`] hears after `cast`.
     #[must_use]
     pub fn passes(&self) -> Vec<&'static str> {
-        if self.lists.is_some() {
-            return vec!["scan", "cast"];
-        }
-        self.draws.first().map(|view| view.iter().map(|draw| draw.label).collect()).unwrap_or_default()
+        let filters = self.draws.first().into_iter().flatten().map(|draw| draw.label);
+        self.cast.passes().into_iter().chain(filters).collect()
     }
 
     /// Every texture and buffer that was allocated, mips included.
     #[must_use]
     pub fn memory(&self) -> Memory {
         let mut memory = self.textures.memory(&self.uniforms);
-        memory.items.extend(self.triangles.as_ref().map(TriangleCaster::memory));
-        memory.items.extend(self.lists.iter().flat_map(Lists::memory));
-        memory.items.extend(self.ranked.iter().flat_map(RankedTriangles::memory));
+        memory.items.extend(self.cast.memory());
         memory
     }
 
     /// Which formats and paths were chosen on this device, one sentence each.
     #[must_use]
     pub fn explain(&self) -> Vec<String> {
-        let triangles = self.lists.as_ref().map(Lists::explain);
-        let triangles = triangles.or_else(|| self.ranked.as_ref().map(RankedTriangles::explain));
-        explain::lines(self.description(), &self.capabilities, triangles)
+        explain::lines(self.description(), &self.capabilities, self.cast.explain())
     }
 }

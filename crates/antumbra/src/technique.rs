@@ -9,7 +9,7 @@ pub use crate::{
     bias::{Bias, BiasTerms},
     describe::{
         About, Access, Binding, Caster, Class, Combine, Constant, Coverage, DepthSpace, Description, Encode,
-        Family, List, Map, Pass, Ranked, Setting, Technique,
+        Family, Map, Pass, Setting, Technique,
     },
     kernel::{Adaptive, Width},
 };

@@ -236,12 +236,12 @@ fn triangles(gpu: &Gpu) {
         let message = refusal(gpu, &dpm(1), of(4, 5 * 21 + 1, 1));
         says(&message, &["dpm", "10 storage buffers"]);
         let message = refusal(gpu, &Exact, of(40, 1, 1));
-        says(&message, &["exact", "10 storage buffers"]);
+        says(&message, &["exact", "11 storage buffers"]);
         for (technique, size) in [(&dpm(4) as &dyn Technique, 16), (&Exact, 32)] {
             ShadowMap::new(&gpu.device, technique, of(size, 1, 1)).unwrap();
         }
-        let message = refusal(gpu, &Exact, of(8, 2048 * 2048 + 1, 1));
-        says(&message, &["exact", "4194305 triangles", "2049 rows", "at most 4194304 triangles"]);
+        let message = refusal(gpu, &Exact, of(8, 9 * 21, 1));
+        says(&message, &["exact", "13 storage buffers", "1024 bytes", "Options::capacity"]);
     });
 }
 

@@ -2,6 +2,7 @@
 
 /// What the casters' pass leaves for a technique.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Caster {
     /// Depth, drawn by the renderer's own pipelines; maps are encoded from it.
     Depth,
@@ -14,57 +15,41 @@ pub enum Caster {
     /// slope: vec2f, alone: bool) -> vec4u`, what a texel stores. All zeros are an empty texel.
     Triangles(&'static [Coverage]),
     /// All triangles that touch each texel, drawn from [`CasterMesh`](crate::CasterMesh)es by the
-    /// library's pipelines: [`Binding::List`](super::Binding::List). They are drawn twice, to count and to fill the lists, so
+    /// library's pipelines. The technique's WGSL calls `shadow_texels() -> vec2u`, the map's size; `shadow_list(view:
+    /// u32, texel: vec2u) -> vec2u`, the first entry of a texel's list and the one behind its last;
+    /// `shadow_entry(view: u32, i: u32) -> u32`, the id of the triangle of an entry; and what all ids lead to:
+    /// `shadow_corner(view: u32, id: u32, corner: u32) -> vec3f`, x and y in texels of the map, y down, z the depth
+    /// as rasterised, and `shadow_stops(view: u32, id: u32, a: vec3f, b: vec3f, c: vec3f) -> bool`, whether a ray
+    /// that these corners lie around meets no hole. Casters are drawn twice, to count and to fill the lists, so
     /// that the closure of [`ShadowMap::encode`](crate::ShadowMap::encode) must draw the same in the
     /// same order both times. What exceeds the map's [`Capacity`](crate::Capacity) is left out.
     Lists,
     /// Some of the triangles that touch each texel, drawn once from
-    /// [`CasterMesh`](crate::CasterMesh)es by the library's pipelines: [`Binding::Ranked`](super::Binding::Ranked). They are those
+    /// [`CasterMesh`](crate::CasterMesh)es by the library's pipelines. They are those
     /// that show their far side to the light, and then those that show the near one, from the light on.
     /// Sides are told by winding: where all triangles of an object are wound the wrong way around they are
     /// swapped, which does no harm. Beside them the depth of the texels' centres ([`Binding::Depth`](super::Binding::Depth)).
+    ///
+    /// The technique's WGSL calls `shadow_key(i: u32) -> u32`: of each texel the keys of its triangles, as in
+    /// `key.wgsl`, the greatest first, 0 where there are fewer; those of texel (x, y) begin at `keeps` · ((view ·
+    /// height + y) · width + x). `shadow_key_bits() -> u32` are the bits of a triangle's id in them, and
+    /// `shadow_near_over_far(view: u32) -> f32`, 1 for the sun, makes depth linear. Ids lead to corners as in
+    /// [`Lists`](Self::Lists).
     Ranked {
         /// Triangles per texel, at least 1.
         keeps: u32,
     },
+    /// Triangles by id, as a store of the technique's own keeps them.
+    #[cfg(feature = "store")]
+    Own(crate::store::OwnStore),
 }
 
 impl Caster {
     /// Whether it keeps triangles by id, for which a map needs [`Capacity`](crate::Capacity).
     #[must_use]
     pub fn keeps_ids(self) -> bool {
-        match self {
-            Self::Depth | Self::Triangles(_) => false,
-            Self::Lists | Self::Ranked { .. } => true,
-        }
+        !matches!(self, Self::Depth | Self::Triangles(_))
     }
-}
-
-/// A buffer that [`Caster::Ranked`] leaves. The technique's WGSL reads it through a function.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Ranked {
-    /// `shadow_key(i: u32) -> u32`: of each texel the keys of its triangles, as in `key.wgsl`, the
-    /// greatest first, 0 where there are fewer; with `shadow_key_bits() -> u32`, the bits of a triangle's id
-    /// in them, and `shadow_near_over_far(view: u32) -> f32`, 1 for the sun, which makes depth linear.
-    /// Those of texel (x, y) begin at `keeps` · ((view · height + y) · width + x).
-    Keys,
-    /// `shadow_corner(view: u32, triangle: u32, corner: u32) -> vec3f`: x and y in texels of the map, y down,
-    /// z the depth as rasterised.
-    Corners,
-}
-
-/// A texture that [`Caster::Lists`] leaves.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum List {
-    /// `texture_2d_array<u32>`: of each texel the first entry of its list in layer 2·view, the one
-    /// behind its last in the next layer.
-    Ranges,
-    /// `texture_2d_array<u32>`: entry i, the number of a triangle, in texel (i mod 2048, ⌊i / 2048⌋ mod
-    /// 2048) of layer ⌊i / 2048²⌋ of the view's, all of which have as many.
-    Numbers,
-    /// `texture_2d_array<f32>`: corner c of triangle n in texel (n mod 2048, ⌊n / 2048⌋) of layer
-    /// 3·view + c: x and y in texels of the map, y down, z the depth as rasterised.
-    Corners,
 }
 
 /// Which texels a triangle is drawn to.

@@ -2,7 +2,6 @@
 
 use super::{
     About, Binding, Caster, Class, Constant, DepthSpace, Setting,
-    caster::{List, Ranked},
     map::{Encode, Map},
 };
 use crate::{
@@ -189,14 +188,10 @@ impl Description {
                     ..kept
                 }
             }
-            Caster::Lists => {
-                let bindings = [List::Ranges, List::Numbers, List::Corners].map(Binding::List).to_vec();
-                rays(Self { bindings, ..kept })
-            }
-            Caster::Ranked { .. } => {
-                let [keys, corners] = [Ranked::Keys, Ranked::Corners].map(Binding::Ranked);
-                rays(Self { bindings: vec![Binding::Depth, keys, corners], ..kept })
-            }
+            Caster::Lists => rays(kept),
+            #[cfg(feature = "store")]
+            Caster::Own(_) => rays(kept),
+            Caster::Ranked { .. } => rays(Self { bindings: vec![Binding::Depth], ..kept }),
         }
     }
 
@@ -219,8 +214,6 @@ impl Description {
         for binding in &self.bindings {
             let (there, needed) = match binding {
                 Binding::Map(i) => (*i < self.maps.len(), "that many maps"),
-                Binding::List(_) => (self.caster == Caster::Lists, "Caster::Lists"),
-                Binding::Ranked(_) => (matches!(self.caster, Caster::Ranked { .. }), "Caster::Ranked"),
                 Binding::Depth | Binding::Compare(_) | Binding::Sampler => continue,
             };
             if !there {

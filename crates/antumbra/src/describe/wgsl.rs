@@ -1,8 +1,6 @@
 //! What a technique's WGSL reads: bindings, settings, constants.
 
-use super::caster::{List, Ranked};
-
-/// A texture or sampler that the technique's WGSL function takes, in parameter order, or a buffer.
+/// A texture or sampler that the technique's WGSL function takes, in parameter order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Binding {
     /// `texture_depth_2d_array`: the depth of the casters, one layer per view, as rasterised.
@@ -12,10 +10,6 @@ pub enum Binding {
     /// Entry of [`Description::maps`](super::Description::maps); view `v` starts at layer `v · layers`. A
     /// `LookupMap`: `texture_2d_array<f32>`, or `<u32>` for summed-area tables.
     Map(usize),
-    /// A texture of the lists of [`Caster::Lists`](super::Caster::Lists).
-    List(List),
-    /// A buffer of [`Caster::Ranked`](super::Caster::Ranked); no parameter.
-    Ranked(Ranked),
     /// `sampler` for the maps: clamped, linear where the device can filter them.
     Sampler,
 }

@@ -12,7 +12,7 @@ use wgpu::{Device, ErrorFilter};
 
 /// Why the device did not make something.
 #[derive(Debug)]
-pub(super) enum Refusal {
+pub(crate) enum Refusal {
     /// There was no memory.
     Memory,
     /// What the device says is wrong.
@@ -53,7 +53,7 @@ pub(super) fn ask<T, M: FnOnce() -> T>(
 }
 
 /// The same where devices answer at once; elsewhere no answer.
-pub(super) fn ask_now<T>(device: &Device, make: impl FnOnce() -> T) -> (T, Option<Refusal>) {
+pub(crate) fn ask_now<T>(device: &Device, make: impl FnOnce() -> T) -> (T, Option<Refusal>) {
     if device.adapter_info().backend == wgpu::Backend::BrowserWebGpu {
         return (make(), None);
     }

@@ -3,20 +3,12 @@
 use super::{
     Capabilities, Options, Pipelines, ShadowMap, Textures, Uniforms,
     answer::{self, Refusal},
-    caster::TriangleCaster,
     check,
     draw::Draw,
-    lists::{ListSize, Lists},
-    ranked::{RankedSize, RankedTriangles},
     receiver,
 };
 use crate::{
-    describe::{Caster, Technique},
-    error::Unsupported,
-    light::Size,
-    pass,
-    shader::Composition,
-    technique,
+    cast, describe::Technique, error::Unsupported, light::Size, pass, shader::Composition, technique,
 };
 use std::sync::atomic::AtomicU32;
 
@@ -79,9 +71,9 @@ impl ShadowMap {
         match refusal {
             None => Ok(self),
             Some(Refusal::Memory) => {
-                let Size { width, height } = self.size;
+                let Size { width, height } = self.options.size;
                 let bytes = self.memory().items.iter().map(|item| item.bytes).sum();
-                Err(Unsupported::Memory { technique, width, height, views: self.room, bytes })
+                Err(Unsupported::Memory { technique, width, height, views: self.options.views, bytes })
             }
             Some(Refusal::Invalid(reason)) => Err(Unsupported::Refused { technique, reason }),
         }
@@ -105,63 +97,33 @@ impl ShadowMap {
         check::device(device, description, options)?;
         let pipelines = options.pipelines.clone().unwrap_or_else(|| Pipelines::new(device));
         check::caster(description, depth)?;
-        let Options { size, views, capacity, cutouts, .. } = *options;
-        let triangles = match (description.caster, description.maps.first()) {
-            (Caster::Triangles(coverages), Some(map)) => {
-                let room = (size, views);
-                Some(TriangleCaster::new(device, &composition, coverages, map.format, room, &pipelines))
-            }
-            _ => None,
-        };
-        let lists = match description.caster {
-            Caster::Lists => {
-                let size = ListSize { size, views, capacity, cutouts };
-                check::lists(device, description, size)?;
-                Some(Lists::new(device, &composition, size, &pipelines))
-            }
-            _ => None,
-        };
-        let ranked = match description.caster {
-            Caster::Ranked { keeps } => {
-                let size = RankedSize { size, views, keeps, capacity, cutouts };
-                check::ranked(device, description, size)?;
-                Some(RankedTriangles::new(device, &composition, size, &pipelines))
-            }
-            _ => None,
-        };
+        let plan = cast::plan(&composition, &capabilities, options);
+        plan.check()?;
+        let cast = plan.build(device, &pipelines);
+        drop(plan);
         let textures = Textures::new(device, &capabilities, description, options, depth);
         let uniforms = Uniforms::new(device, description, options);
-        let steps = pass::plan(&composition, &capabilities, size);
+        let steps = pass::plan(&composition, &capabilities, options.size);
         let draw = |view, step| Draw::new(&pipelines, &textures, &uniforms, &description.maps, step, view);
-        let draws = (0..views).map(|view| steps.iter().map(|step| draw(view, step)).collect()).collect();
-        let (layout, bind_group) = receiver::group(
-            device,
-            description,
-            &capabilities,
-            &textures,
-            &uniforms,
-            lists.as_ref(),
-            ranked.as_ref(),
-        );
+        let draws =
+            (0..options.views).map(|view| steps.iter().map(|step| draw(view, step)).collect()).collect();
+        let (layout, bind_group) =
+            receiver::group(device, description, &capabilities, &textures, &uniforms, &cast.bindings());
         let casts = description.sample_offsets.len();
         Ok(Self {
             technique: technique.clone_box(),
             composition,
             capabilities,
-            size,
-            room: views,
-            capacity,
+            options: options.clone(),
             textures,
             uniforms,
             draws,
-            triangles,
-            lists,
-            ranked,
+            cast,
             drawn: AtomicU32::new(0),
             layout,
             bind_group,
-            views: Vec::with_capacity(views as usize),
-            caster_views: Vec::with_capacity(views as usize * casts),
+            views: Vec::with_capacity(options.views as usize),
+            caster_views: Vec::with_capacity(options.views as usize * casts),
         })
     }
 }

@@ -86,7 +86,7 @@ impl Draw {
 }
 
 /// Begins a compute pass with the timestamps of a render pass.
-pub(super) fn compute_pass<'a>(
+pub(crate) fn compute_pass<'a>(
     encoder: &'a mut wgpu::CommandEncoder,
     label: &str,
     timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,

@@ -38,7 +38,7 @@ pub struct MemoryItem {
 }
 
 impl MemoryItem {
-    pub(super) fn texture(name: &str, texture: &wgpu::Texture, lifetime: Lifetime) -> Self {
+    pub(crate) fn texture(name: &str, texture: &wgpu::Texture, lifetime: Lifetime) -> Self {
         let (width, height) = (texture.width(), texture.height());
         let (layers, mips) = (texture.depth_or_array_layers(), texture.mip_level_count());
         let texel = match texture.format() {
@@ -59,7 +59,7 @@ impl MemoryItem {
         }
     }
 
-    pub(super) fn buffer(name: &str, buffer: &wgpu::Buffer) -> Self {
+    pub(crate) fn buffer(name: &str, buffer: &wgpu::Buffer) -> Self {
         Self {
             name: name.into(),
             format: "buffer".into(),
@@ -73,7 +73,7 @@ impl MemoryItem {
     }
 
     /// The same buffer, told as words of 4 bytes for each texel, as many as `layers`.
-    pub(super) fn texels(self, size: Size) -> Self {
+    pub(crate) fn texels(self, size: Size) -> Self {
         let Size { width, height } = size;
         let layers = (self.bytes / (4 * u64::from(width) * u64::from(height))) as u32;
         Self { width, height, layers, ..self }

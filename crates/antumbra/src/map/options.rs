@@ -1,7 +1,7 @@
 //! How a shadow map is made, and who listens to its passes.
 
-use super::{Capacity, Pipelines};
-use crate::{light::Size, technique::Bias};
+use super::Pipelines;
+use crate::{cast::Capacity, light::Size, technique::Bias};
 
 /// How a [`ShadowMap`](crate::ShadowMap) is made. A [`Size`] alone is enough.
 #[derive(Debug, Clone)]

@@ -81,7 +81,7 @@ impl Pipelines {
     }
 
     /// A caster's pipeline, which `compile` makes unless it is there.
-    pub(super) fn caster(
+    pub(crate) fn caster(
         &self,
         shader: &str,
         formats: &[TextureFormat],

@@ -1,8 +1,6 @@
 //! What receivers bind.
 
 use super::{
-    lists::Lists,
-    ranked::RankedTriangles,
     textures::{self, Textures},
     uniforms::{self, Uniforms},
 };
@@ -11,15 +9,14 @@ use crate::{
     describe::{Binding, Description},
 };
 
-/// Layout and bind group of the receiver.
+/// Layout and bind group of the receiver: its uniforms, what the technique names, and what casters leave beside.
 pub(super) fn group(
     device: &wgpu::Device,
     description: &Description,
     capabilities: &Capabilities,
     textures: &Textures,
     uniforms: &Uniforms,
-    lists: Option<&Lists>,
-    ranked: Option<&RankedTriangles>,
+    kept: &[(wgpu::BindingType, wgpu::BindingResource<'_>)],
 ) -> (wgpu::BindGroupLayout, wgpu::BindGroup) {
     use wgpu::{BindingResource, BindingType, SamplerBindingType, TextureSampleType};
     let texture = |sample_type| BindingType::Texture {
@@ -33,8 +30,6 @@ pub(super) fn group(
         bindings.iter().map(|binding| textures::sampler(device, *binding, filterable)).collect();
     let mut layout = vec![uniforms::layout_entry(0)];
     let mut group = vec![wgpu::BindGroupEntry { binding: 0, resource: uniforms.receiver() }];
-    // Further buffers of split arrays come behind all bindings.
-    let mut more = Vec::new();
     for (i, binding) in bindings.iter().enumerate() {
         let (ty, resource) = match binding {
             Binding::Depth => {
@@ -52,26 +47,6 @@ pub(super) fn group(
                 };
                 (texture(kind), BindingResource::TextureView(&map.array))
             }
-            Binding::List(list) => {
-                let Some((view, format)) = lists.map(|lists| lists.texture(*list)) else { continue };
-                let kind = match format.sample_type(None, None) {
-                    Some(TextureSampleType::Uint) => TextureSampleType::Uint,
-                    _ => TextureSampleType::Float { filterable: false },
-                };
-                (texture(kind), BindingResource::TextureView(view))
-            }
-            Binding::Ranked(buffer) => {
-                let Some(ranked) = ranked else { continue };
-                let ty = BindingType::Buffer {
-                    ty: wgpu::BufferBindingType::Storage { read_only: true },
-                    has_dynamic_offset: false,
-                    min_binding_size: None,
-                };
-                let mut buffers = ranked.buffers(*buffer).bindings();
-                let Some(first) = buffers.next() else { continue };
-                more.extend(buffers.map(|resource| (ty, resource)));
-                (ty, first)
-            }
             Binding::Sampler => {
                 let kind =
                     if filterable { SamplerBindingType::Filtering } else { SamplerBindingType::NonFiltering };
@@ -81,7 +56,7 @@ pub(super) fn group(
         layout.push(layout_entry(i as u32 + 1, ty));
         group.push(wgpu::BindGroupEntry { binding: i as u32 + 1, resource });
     }
-    for (binding, (ty, resource)) in (bindings.len() as u32 + 1..).zip(more) {
+    for (binding, (ty, resource)) in (bindings.len() as u32 + 1..).zip(kept.iter().cloned()) {
         layout.push(layout_entry(binding, ty));
         group.push(wgpu::BindGroupEntry { binding, resource });
     }

@@ -34,7 +34,7 @@ impl Kept {
 
 /// Casters' depth, maps and scratch.
 #[derive(Debug)]
-pub(super) struct Textures {
+pub(crate) struct Textures {
     casters: wgpu::Texture,
     casters_array: TextureView,
     /// Layers of the casters' depth, which views share unless there is one for each.
@@ -92,12 +92,12 @@ impl Textures {
     }
 
     /// A layer of the first map of a view.
-    pub(super) fn map_target(&self, view: usize, layer: usize) -> &TextureView {
+    pub(crate) fn map_target(&self, view: usize, layer: usize) -> &TextureView {
         &self.map_targets[view * self.maps[0].layers as usize + layer]
     }
 
     /// Depth attachment of a caster pass of a view.
-    pub(super) fn caster_target(&self, view: usize, cast: usize) -> &TextureView {
+    pub(crate) fn caster_target(&self, view: usize, cast: usize) -> &TextureView {
         // Four passes are converted together.
         let layer = if self.casters_lifetime == Lifetime::Transient { cast } else { view };
         &self.caster_targets[layer % self.caster_targets.len()]
@@ -208,7 +208,7 @@ fn aspect(texture: &wgpu::Texture) -> TextureAspect {
 }
 
 /// A colour attachment of which every texel is written.
-pub(super) fn written(view: &TextureView) -> wgpu::RenderPassColorAttachment<'_> {
+pub(crate) fn written(view: &TextureView) -> wgpu::RenderPassColorAttachment<'_> {
     wgpu::RenderPassColorAttachment {
         view,
         depth_slice: None,

@@ -12,16 +12,13 @@ use crate::{
     map::Options,
 };
 
-/// Ends lines that are for cut-outs alone.
-pub(super) const CUT_OUTS: &str = "// cut-outs";
-
 /// A description whose WGSL is put together: what all passes and receivers are written from.
 #[derive(Debug)]
 pub(crate) struct Composition {
     pub(crate) description: Description,
     /// Whether lookups ask about cut-outs.
     pub(crate) asks: bool,
-    /// The technique's file and all that it needs, needs first, without what is for cut-outs alone.
+    /// The technique's file and all that it needs, needs first.
     library: ShaderText,
     /// All that lookups take but for what is bound.
     pub(super) looked_up: ShaderText,
@@ -49,13 +46,11 @@ impl Composition {
     pub(crate) fn new(description: Description, asks: bool) -> Result<Self, Unsupported> {
         let wrong = |error| Unsupported::Description { technique: description.about.name.into(), error };
         description.check().map_err(wrong)?;
-        let library = ShaderText::library(&description, false).map_err(wrong)?;
-        let mut looked_up =
-            if asks { ShaderText::library(&description, true).map_err(wrong)? } else { library.clone() };
+        let library = ShaderText::library(&description).map_err(wrong)?;
+        let mut looked_up = library.clone();
         looked_up.add(&["receiver"]);
         if asks {
             looked_up.add(&["record"]);
-            looked_up.push("shadow_stops", include_str!("stops.wgsl.in"));
         }
         Ok(Self { description, asks, library, looked_up })
     }
@@ -75,16 +70,12 @@ impl Composition {
 }
 
 impl ShaderText {
-    /// The technique's own file and all that it needs, constants replaced. `asks` says whether it has what is
-    /// for cut-outs.
-    fn library(description: &Description, asks: bool) -> Result<Self, DescriptionError> {
+    /// The technique's own file and all that it needs, constants replaced.
+    fn library(description: &Description) -> Result<Self, DescriptionError> {
         let Description { about, wgsl, slots, constants, .. } = description;
         let mut shader = Self::of("raster", slots)?;
         shader.need_all(wgsl, slots)?;
-        // Empty lines instead of those left out, so that line numbers stay right.
-        let line = |line| if asks || !str::contains(line, CUT_OUTS) { line } else { "" };
-        let text: String = wgsl.lines().flat_map(|l| [line(l), "\n"]).collect();
-        shader.push(about.name, &text);
+        shader.push(about.name, wgsl);
         constants.iter().try_for_each(|constant| shader.replace(constant))?;
         shader.unroll()?;
         Ok(shader)
@@ -98,7 +89,7 @@ impl ShaderText {
     }
 
     /// Adds shared files that exist and leave no slot open.
-    pub(super) fn add(&mut self, stems: &[&str]) {
+    pub(crate) fn add(&mut self, stems: &[&str]) {
         for stem in stems {
             let added = self.need(stem, &[]);
             debug_assert!(added.is_ok(), "{added:?}");

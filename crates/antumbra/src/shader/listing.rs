@@ -1,11 +1,12 @@
 //! All shaders of a technique, without a device: for those who check or compile them beforehand.
 
-use super::{Composition, Cutout, MapSize, ShaderText, TrianglePass, scan, triangles};
+use super::{Composition, ShaderText};
 use crate::{
     capabilities::Capabilities,
-    describe::{Caster, Coverage, Technique},
+    cast,
+    describe::Technique,
     error::Unsupported,
-    map::{self, DEPTH_FORMAT, Options},
+    map::{DEPTH_FORMAT, Options},
     pass::{self, Slot, Work},
 };
 use wgpu::TextureFormat;
@@ -35,7 +36,9 @@ impl Shader {
         cutout: Option<&str>,
     ) -> Result<Vec<Self>, Unsupported> {
         let composition = Composition::of(technique, device, options)?;
-        let mut shaders = casters(&composition, device, options, cutout);
+        let plan = cast::plan(&composition, device, options);
+        let holed = cutout.and_then(|wgsl| plan.cutout(wgsl));
+        let mut shaders: Vec<Self> = plan.shaders().into_iter().chain(holed).collect();
         for step in pass::plan(&composition, device, options.size) {
             let format = |slot| match slot {
                 Slot::Map(i) | Slot::Scratch(i) => composition.description.maps[i].format,
@@ -54,45 +57,6 @@ impl Shader {
     }
 }
 
-/// Those that draw triangles.
-fn casters(
-    composition: &Composition,
-    device: &Capabilities,
-    options: &Options,
-    cutout: Option<&str>,
-) -> Vec<Shader> {
-    use TrianglePass::{Any, Indexed, Pulled};
-    let caster = composition.description.caster;
-    let pulled = |coverage| [Pulled(coverage, false), Pulled(coverage, true)];
-    let passes = match caster {
-        Caster::Depth => return Vec::new(),
-        Caster::Lists | Caster::Ranked { .. } => pulled(Coverage::Touched).to_vec(),
-        Caster::Triangles(coverages) => {
-            let can = |coverage: &&Coverage| match coverage {
-                Coverage::Touched => device.rasterises_conservatively(),
-                Coverage::Centre => device.numbers_triangles(),
-            };
-            let indexed = coverages.iter().filter(can).map(|coverage| Indexed(*coverage));
-            coverages.iter().copied().flat_map(pulled).chain(indexed).collect()
-        }
-    };
-    let targets: Vec<TextureFormat> = match caster {
-        Caster::Triangles(_) => composition.description.maps.iter().map(|map| map.format).collect(),
-        _ => Vec::new(),
-    };
-    let shader = |pass, text| Shader { pass, text, targets: targets.clone() };
-    let splits = map::splits(caster, &device.limits, options);
-    let cast = |pass| shader("cast", triangles(composition, device, None, pass, &splits));
-    let mut shaders: Vec<Shader> = passes.into_iter().map(cast).collect();
-    let by_ray = composition.asks;
-    let holed = |wgsl| triangles(composition, device, Some(Cutout { wgsl, by_ray }), Any, &splits);
-    shaders.extend(cutout.map(|wgsl| shader("cut-out", holed(wgsl))));
-    if caster == Caster::Lists {
-        shaders.push(Shader { pass: "scan", text: scan(&splits), targets: Vec::new() });
-    }
-    shaders
-}
-
 impl ShaderText {
     /// What [`ShadowMap::wgsl`](crate::ShadowMap::wgsl) gives for a map with these options on such a
     /// device, bound in `group`.
@@ -106,8 +70,7 @@ impl ShaderText {
         group: u32,
     ) -> Result<Self, Unsupported> {
         let composition = Composition::of(technique, device, options)?;
-        let splits = map::splits(composition.description.caster, &device.limits, options);
-        let size = MapSize { views: options.views, capacity: options.capacity, splits };
-        Ok(composition.receiver(size, group))
+        let plan = cast::plan(&composition, device, options);
+        Ok(composition.receiver(plan.as_ref(), options.views, group))
     }
 }

@@ -4,11 +4,10 @@ use super::{
     ShaderText,
     compose::Composition,
     settings::{self, Reader},
-    split::Splits,
 };
 use crate::{
-    describe::{Binding, DepthSpace, Description, Family, List, Map, Ranked},
-    map::Capacity,
+    cast::Plan,
+    describe::{Binding, DepthSpace, Description, Family, Map},
 };
 use std::fmt::Write;
 
@@ -16,22 +15,15 @@ use std::fmt::Write;
 /// last place from ½ to 1.
 const ROUNDING: &str = "4.8e-7";
 
-/// What generated text needs to know of a map's size.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct MapSize {
-    pub(crate) views: u32,
-    pub(crate) capacity: Capacity,
-    pub(crate) splits: Splits,
-}
-
 impl Composition {
     /// `shadow_visibility` and everything it needs, bound in `group`; it may call the user's
     /// `shadow_covers` about cut-outs.
-    pub(crate) fn receiver(&self, size: MapSize, group: u32) -> ShaderText {
+    pub(crate) fn receiver(&self, plan: &dyn Plan, views: u32, group: u32) -> ShaderText {
         let description = &self.description;
-        let mut glue = uniforms(description, size.views, group);
+        let mut glue = uniforms(description, views, group);
         glue += &settings::accessors(description, Reader::Receiver);
-        let arguments = bindings(&mut glue, self, size, group);
+        let arguments = bindings(&mut glue, description, group);
+        glue += &plan.lookups(group, description.bindings.len() as u32 + 1);
         glue += &function(description, &arguments, "visibility", ["f32", "1.0"]);
         if !description.classes.is_empty() {
             glue += &function(description, &arguments, "class", ["u32", "0u"]);
@@ -53,28 +45,11 @@ fn uniforms(description: &Description, views: u32, group: u32) -> String {
     )
 }
 
-/// Declares all bindings, with the functions that read buffers; the arguments that textures and samplers are.
-fn bindings(glue: &mut String, composition: &Composition, size: MapSize, group: u32) -> String {
-    let Description { bindings, maps, .. } = &composition.description;
+/// Declares the technique's bindings; the arguments that they are.
+fn bindings(glue: &mut String, description: &Description, group: u32) -> String {
     let mut arguments = String::new();
-    // Further buffers of split arrays come behind all bindings.
-    let mut more = bindings.len() as u32;
-    for (i, binding) in bindings.iter().enumerate() {
-        let name = format!("shadow_binding_{i}");
-        if let Binding::Ranked(ranked) = binding {
-            let (split, of) = match ranked {
-                Ranked::Keys => (size.splits.keys, "u32"),
-                Ranked::Corners => (size.splits.corners, "vec4f"),
-            };
-            *glue += &split.declared(&name, "read", of, group, |k| match k {
-                0 => i as u32 + 1,
-                k => more + k,
-            });
-            more += split.count() - 1;
-            *glue += &buffer_accessors(*ranked, &name, size, composition.asks);
-            continue;
-        }
-        let ty = wgsl_type(*binding, maps);
+    for (i, binding) in description.bindings.iter().enumerate() {
+        let (name, ty) = (format!("shadow_binding_{i}"), wgsl_type(*binding, &description.maps));
         let _ = writeln!(glue, "@group({group}) @binding({}) var {name}: {ty};", i + 1);
         let _ = write!(arguments, "{name}, ");
     }
@@ -123,40 +98,7 @@ fn wgsl_type(binding: Binding, maps: &[Map]) -> &'static str {
         Binding::Depth => "texture_depth_2d_array",
         Binding::Compare(_) => "sampler_comparison",
         Binding::Map(i) if maps.get(i).is_some_and(Map::holds_integers) => "texture_2d_array<u32>",
-        Binding::Map(_) | Binding::List(List::Corners) => "texture_2d_array<f32>",
-        Binding::List(List::Ranges | List::Numbers) => "texture_2d_array<u32>",
+        Binding::Map(_) => "texture_2d_array<f32>",
         Binding::Sampler => "sampler",
-        // Declared by `Split`.
-        Binding::Ranked(_) => "array<vec4f>",
-    }
-}
-
-/// The functions through which a technique reads a buffer, which WGSL cannot pass on.
-pub(super) fn buffer_accessors(ranked: Ranked, name: &str, size: MapSize, asks: bool) -> String {
-    let Capacity { triangles, .. } = size.capacity;
-    match ranked {
-        Ranked::Keys => format!(
-            "fn shadow_key(i: u32) -> u32 {{ {} }}\n\
-             fn shadow_key_bits() -> u32 {{ return {}u; }}\n\
-             fn shadow_near_over_far(view: u32) -> f32 {{ return shadow.views[view].linear_over.z / shadow.views[view].linear_under.w; }}\n",
-            size.splits.keys.chosen(name, |buffer, i| format!("return {buffer}[{i}];")),
-            size.capacity.id_bits()
-        ),
-        Ranked::Corners if asks => format!(
-            "fn shadow_vertex(i: u32, corner: u32) -> vec4f {{ {} }}\n\
-             fn shadow_corner(view: u32, triangle: u32, corner: u32) -> vec3f {{ \
-             return shadow_vertex(view * {triangles}u + triangle, corner).xyz; }}\n\
-             fn shadow_has_holes(view: u32, triangle: u32) -> bool {{ \
-             return shadow_vertex(view * {triangles}u + triangle, 0u).w != 0.0; }}\n\
-             fn shadow_record(view: u32, triangle: u32, corner: u32) -> vec4f {{ \
-             return shadow_vertex({}u + view * {triangles}u + triangle, corner); }}\n",
-            size.splits.corners.chosen(name, |buffer, i| format!("return {buffer}[3u * {i} + corner];")),
-            size.splits.corners.elements / 2
-        ),
-        Ranked::Corners => format!(
-            "fn shadow_corner(view: u32, triangle: u32, corner: u32) -> vec3f {{ \
-             let i = view * {triangles}u + triangle; {} }}\n",
-            size.splits.corners.chosen(name, |buffer, i| format!("return {buffer}[3u * {i} + corner].xyz;"))
-        ),
     }
 }

@@ -1,23 +1,24 @@
-use super::{files::FILES, receiver::buffer_accessors, split::Split, *};
+use super::{files::FILES, *};
 use crate::{
+    Options, Size,
+    capabilities::Capabilities,
+    cast::{self, Capacity},
     describe::{Binding, Description, Technique},
     error::{DescriptionError, Unsupported},
-    map::Capacity,
     technique::{self, parse},
 };
 use antumbra_testing::{settings, shaders::parse as validate};
 use naga::AddressSpace;
 
-const SIZE: MapSize =
-    MapSize { views: 3, capacity: Capacity { triangles: 1000, triangles_per_texel: 4 }, splits: WHOLE };
-const ONE: Split = Split { elements: 3000, each: 3000 };
-const WHOLE: Splits = Splits { keys: ONE, corners: ONE, counts: ONE };
-/// Arrays that are larger than bindings.
-const PARTS: Splits = Splits {
-    keys: Split { elements: 3000, each: 1024 },
-    corners: ONE,
-    counts: Split { elements: 3000, each: 2048 },
-};
+fn options() -> Options {
+    Options::from(Size::square(32)).views(3).capacity(Capacity { triangles: 1000, triangles_per_texel: 4 })
+}
+
+/// What receivers call, and whatever that binds in group 2.
+fn receiver(composition: &Composition, device: &Capabilities) -> ShaderText {
+    let options = options();
+    composition.receiver(cast::plan(composition, device, &options).as_ref(), options.views, 2)
+}
 
 /// Everything and nothing of what devices may lack.
 fn devices() -> [Capabilities; 2] {
@@ -149,14 +150,14 @@ fn every_technique_validates_with_its_needs() {
         for technique in variants() {
             let composition = composed(technique.as_ref(), &device, false);
             let mut text = composition.alone().text();
-            // Buffers are read through functions that come with them.
-            for binding in &composition.description.bindings {
-                let Binding::Ranked(ranked) = binding else { continue };
-                for line in buffer_accessors(*ranked, "nothing", SIZE, false).lines() {
-                    let (head, _) = line.split_once(" {").unwrap();
-                    let (_, result) = head.split_once("-> ").unwrap();
-                    text += &format!("{head} {{ return {result}(); }}\n");
-                }
+            // What casters leave is read through functions that come with it.
+            let options = options();
+            for line in cast::plan(&composition, &device, &options).lookups(2, 1).lines() {
+                let Some((head, result)) = line.split_once(" {").and_then(|(head, _)| head.split_once("-> "))
+                else {
+                    continue;
+                };
+                text += &format!("{head}-> {result} {{ return {result}(); }}\n");
             }
             let spec = technique::spec(technique.as_ref());
             let module = validate(&text).unwrap_or_else(|e| panic!("{spec}: {e}"));
@@ -165,20 +166,22 @@ fn every_technique_validates_with_its_needs() {
     }
 }
 
-/// Each buffer of a split array has a binding of its own.
+/// Each buffer of an array that is larger than a binding has a binding of its own.
 #[test]
 fn split_arrays_validate() {
-    for device in devices() {
-        let dpm = parse("dpm").unwrap();
-        let split = MapSize { splits: PARTS, ..SIZE };
-        let text = composed(dpm.as_ref(), &device, false).receiver(split, 2).text();
-        let module = validate(&text).unwrap();
-        let mut bound: Vec<u32> =
-            module.global_variables.iter().filter_map(|(_, v)| Some(v.binding.as_ref()?.binding)).collect();
-        bound.sort_unstable();
-        assert_eq!(bound, [0, 1, 2, 3, 4, 5]);
-        for splits in [WHOLE, PARTS] {
-            validate(&scan(&splits)).unwrap();
+    for mut device in devices() {
+        device.limits.max_storage_buffer_binding_size = 4096;
+        for name in ["dpm", "exact"] {
+            let composition = composed(parse(name).unwrap().as_ref(), &device, false);
+            let module = validate(&receiver(&composition, &device).text()).unwrap();
+            let bound = module.global_variables.iter().filter_map(|(_, v)| Some(v.binding.as_ref()?.binding));
+            let mut bound: Vec<u32> = bound.collect();
+            bound.sort_unstable();
+            assert!(bound.len() > 10 && bound.iter().zip(0..).all(|(a, b)| *a == b), "{bound:?}");
+            let options = options();
+            for shader in cast::plan(&composition, &device, &options).shaders() {
+                validate(&shader.text).unwrap_or_else(|e| panic!("{name}, {}: {e}", shader.pass));
+            }
         }
     }
 }
@@ -190,12 +193,14 @@ fn every_receiver_binds_what_the_technique_names() {
             let spec = technique::spec(technique.as_ref());
             let composition = composed(technique.as_ref(), &device, false);
             let module =
-                validate(&composition.receiver(SIZE, 2).text()).unwrap_or_else(|e| panic!("{spec}: {e}"));
+                validate(&receiver(&composition, &device).text()).unwrap_or_else(|e| panic!("{spec}: {e}"));
             let covers = "fn shadow_covers(tag: u32, triangle: u32, weights: vec3f) -> bool { return tag > triangle; }\n";
-            let asking = composed(technique.as_ref(), &device, true).receiver(SIZE, 2).text();
+            let asking = receiver(&composed(technique.as_ref(), &device, true), &device).text();
             validate(&format!("{covers}{asking}")).unwrap_or_else(|e| panic!("{spec}: {e}"));
             let bound: Vec<_> = module.global_variables.iter().filter_map(|(_, v)| v.binding).collect();
-            assert_eq!(bound.len(), 1 + composition.description.bindings.len(), "{spec}");
+            let options = options();
+            let kept = cast::plan(&composition, &device, &options).lookups(2, 1).matches("@binding").count();
+            assert_eq!(bound.len(), 1 + composition.description.bindings.len() + kept, "{spec}");
             assert!(bound.iter().all(|b| b.group == 2), "{spec}: {bound:?}");
             let uniforms =
                 module.global_variables.iter().filter(|(_, v)| v.space == AddressSpace::Uniform).count();
@@ -232,7 +237,7 @@ fn an_error_is_found_at_its_file_and_line() {
     let [device, _] = devices();
     for user in ["", "fn mine() {}", "fn mine() {}\n", "enable f16;\n\nfn mine() {}\n\n"] {
         let csm = technique::csm::Csm::default();
-        let mut shader = composed(&csm, &device, false).receiver(SIZE, 0);
+        let mut shader = receiver(&composed(&csm, &device, false), &device);
         for piece in 0..shader.pieces.len() {
             let good = shader.pieces[piece].1.clone();
             let wrong = "fn wrong() -> u32 { return nonsense; }\n";
@@ -296,14 +301,8 @@ fn what_contradicts_itself_is_named() {
     assert_eq!(refusal(|d| d.sample_offsets.clear()), E::SampleOffsets);
     let passes = |d: &mut Description| d.sample_offsets = vec![glam::Vec2::ZERO; 5];
     assert_eq!(refusal(passes), E::Layers { passes: 5, layers: 0 });
-    for binding in [
-        Binding::Map(0),
-        Binding::List(crate::describe::List::Ranges),
-        Binding::Ranked(crate::describe::Ranked::Keys),
-    ] {
-        let error = refusal(|d| d.bindings.push(binding));
-        assert!(matches!(&error, E::Binding { binding: b, .. } if *b == format!("{binding:?}")), "{error}");
-    }
+    let error = refusal(|d| d.bindings.push(Binding::Map(0)));
+    assert!(matches!(&error, E::Binding { binding, .. } if binding == "Map(0)"), "{error}");
 }
 
 /// Number of parameters of each function of a text.

@@ -22,15 +22,6 @@ fn dpm_occluded(casters: texture_depth_2d_array, texel: vec2i, point: vec2f, vie
     return textureLoad(casters, inside, view, 0) < depth + dot(gain, vec2f(texel) + 0.5 - point);
 }
 
-/// Whether the triangle, whose corners lie around the ray, has no hole where that meets it. // cut-outs
-fn dpm_stops(view: u32, n: u32, a: vec3f, b: vec3f, c: vec3f) -> bool { // cut-outs
-    if !shadow_has_holes(view, n) { // cut-outs
-        return true; // cut-outs
-    } // cut-outs
-    let with_a = shadow_record(view, n, 0u); // cut-outs
-    return shadow_stops(a, b, c, with_a, shadow_record(view, n, 1u), shadow_record(view, n, 2u)); // cut-outs
-} // cut-outs
-
 /// Class of a receiver.
 ///
 /// Full texels may lack triangles: those that are less worth keeping than the last one. The far sides of
@@ -66,8 +57,10 @@ fn dpm_class_at(casters: texture_depth_2d_array, point: vec2f, view: u32, depth:
         let c = shadow_corner(view, n, 2u) - ray;
         let met = ray_depth(a, b, c);
         if met < depth {
-            if !dpm_stops(view, n, a, b, c) { continue; } // cut-outs
-            return dpm_shadowed;
+            if shadow_stops(view, n, a, b, c) {
+                return dpm_shadowed;
+            }
+            continue;
         }
         own = own || met - depth < 2e-5 + 0.05 * dot(abs(gain), vec2f(1.0));
     }

@@ -12,7 +12,7 @@
 
 use super::{About, Caster, Description, Family, Technique};
 use crate::{
-    capabilities::Capabilities, error::Unsupported, map::Capacity, parameter::Parameter,
+    capabilities::Capabilities, error::Unsupported, cast::Capacity, parameter::Parameter,
 };
 
 /// Lists of all triangles. 16 bytes per texel, 4 for each triangle per texel of the map's [`Capacity`], 48

@@ -75,26 +75,24 @@ fn found(gpu: &Gpu, shadows: &ShadowMap, view: u32) -> Found {
         "@group(1) @binding(0) var<storage, read> unused: array<f32>;
         @group(1) @binding(1) var<storage, read_write> results: array<f32>;
         @compute @workgroup_size(64) fn main(@builtin(global_invocation_id) id: vec3u) {{
-            let size = textureDimensions(shadow_binding_0);
+            let size = shadow_texels();
             if id.x >= size.x * size.y + {TRIANGLES}u {{ return; }}
             let me = id.x * {stride}u;
             if id.x >= size.x * size.y {{
                 let n = id.x - size.x * size.y;
                 for (var k = 0u; k < 9u; k += 1u) {{
-                    results[me + k] = exact_corner(shadow_binding_2, n, {view}u, k / 3u)[k % 3u];
+                    results[me + k] = shadow_corner({view}u, n, k / 3u)[k % 3u];
                 }}
                 return;
             }}
             let texel = vec2u(id.x % size.x, id.x / size.x);
-            let start = textureLoad(shadow_binding_0, texel, {view}u * 2u, 0).x;
-            let end = textureLoad(shadow_binding_0, texel, {view}u * 2u + 1u, 0).x;
+            let list = shadow_list({view}u, texel);
+            let start = list.x;
+            let end = list.y;
             results[me] = f32(start);
             results[me + 1u] = f32(end);
             for (var i = start; i < min(end, start + {MOST}u); i += 1u) {{
-                let row = i / 2048u;
-                let layers = textureNumLayers(shadow_binding_1) / 2u;
-                let at = vec2u(i % 2048u, row % 2048u);
-                let n = textureLoad(shadow_binding_1, at, {view}u * layers + row / 2048u, 0).x;
+                let n = shadow_entry({view}u, i);
                 results[me + 2u + i - start] = f32(n);
             }}
         }}
@@ -215,11 +213,11 @@ pub(crate) fn lists_tell_their_memory(gpu: &Gpu) {
     let memory = shadows.memory();
     let bytes = |name: &str| memory.items.iter().find(|i| i.name == name).map_or(0, |i| i.bytes);
     let texels = TEXELS as u64;
-    assert_eq!(bytes("list ranges"), 2 * 8 * texels);
-    assert_eq!(bytes("list numbers"), 2 * 4 * (6 * texels).next_multiple_of(2048));
-    assert_eq!(bytes("list corners"), 2 * 3 * 16 * 2 * 2048);
-    assert_eq!(bytes("list counts"), 4 * texels);
-    let counts = memory.items.iter().find(|i| i.name == "list counts").unwrap();
+    assert_eq!(bytes("A-buffer ranges"), 2 * 8 * texels);
+    assert_eq!(bytes("A-buffer ids"), 2 * 4 * (6 * texels).next_multiple_of(2048));
+    assert_eq!(bytes("A-buffer vertices"), 2 * 48 * 3000);
+    assert_eq!(bytes("A-buffer counts"), 4 * texels);
+    let counts = memory.items.iter().find(|i| i.name == "A-buffer counts").unwrap();
     assert_eq!(counts.lifetime, Lifetime::Transient);
     assert!(shadows.explain().join("\n").contains("6 per texel, of 3000"), "{:?}", shadows.explain());
 }

@@ -136,8 +136,8 @@ pub(crate) fn triangles_beyond_the_capacity_are_left_out(gpu: &Gpu) {
     assert!(held.len() > 20 && held.iter().all(|n| *n < 50), "{held:?}");
     let memory = ShadowMap::new(&gpu.device, &Dpm::default(), Options::from(MAP).views(2)).unwrap().memory();
     let bytes = |name: &str| memory.items.iter().find(|i| i.name == name).map_or(0, |i| i.bytes);
-    assert_eq!(bytes("ranked triangles"), 2 * 4 * 4 * TEXELS as u64);
-    assert_eq!(bytes("ranked corners"), 2 * 48 * (1 << 19));
+    assert_eq!(bytes("k-buffer keys"), 2 * 4 * 4 * TEXELS as u64);
+    assert_eq!(bytes("k-buffer vertices"), 2 * 48 * (1 << 19));
 }
 
 /// The depth of texels' centres is that of the nearest triangle there, also of triangles that reach behind

@@ -59,9 +59,8 @@ pub(crate) fn darkens_with_depth(gpu: &Gpu, technique: &dyn Technique) -> Result
     // Silhouettes of triangles that are not kept are guesses, which differ with what is in front.
     let described = described(gpu, technique);
     let centred = |r: Receiver| match described.caster {
-        Caster::Depth => r,
-        Caster::Lists | Caster::Ranked { .. } => r,
         Caster::Triangles(_) => Receiver { uv: ((r.uv * 64.0).floor() + 0.5) / 64.0, ..r },
+        _ => r,
     };
     let deeper = |r: Receiver| (0..STEPS).map(move |i| Receiver { depth: i as f32 / STEPS as f32, ..r });
     let receivers: Vec<_> = receivers(4, 100).into_iter().map(centred).flat_map(deeper).collect();

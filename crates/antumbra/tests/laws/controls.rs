@@ -134,7 +134,11 @@ pub(crate) fn broken() -> Vec<(&'static str, Law, Broken)> {
             views_do_not_matter,
             Broken::saying("dpm", "shadow_corner(view, n", "shadow_corner(0u, n"),
         ),
-        ("corners of the first view", views_do_not_matter, Broken::saying("exact", "3u * view + k", "k")),
+        (
+            "corners of the first view",
+            views_do_not_matter,
+            Broken::saying("exact", "shadow_corner(view, id", "shadow_corner(0u, id"),
+        ),
         ("a blur that brightens", filtering_keeps_the_mean, Broken::new("vsm").weights(1.01)),
         (
             "the first view's layer always",

@@ -1,10 +1,11 @@
 use super::*;
 use crate::{
     capabilities::Capabilities,
+    cast,
     describe::Technique,
     light::Size,
     pass,
-    shader::{Composition, MapSize, settings},
+    shader::{Composition, settings},
     technique::{all, parse},
 };
 use naga::{TypeInner, front::wgsl::parse_str};
@@ -52,8 +53,8 @@ fn composed(technique: &dyn Technique) -> Composition {
 
 /// The receiver's text for three views.
 fn receiver(composition: &Composition) -> String {
-    let size = MapSize { views: 3, capacity: crate::Capacity::default(), splits: Default::default() };
-    composition.receiver(size, 0).text()
+    let (device, options) = (Capabilities::least(), Options::from(Size::square(8)).views(3));
+    composition.receiver(cast::plan(composition, &device, &options).as_ref(), 3, 0).text()
 }
 
 fn same(wgsl: &str, description: &Description) -> Result<(), String> {

@@ -1,7 +1,6 @@
 //! Casters with holes.
 
-use super::{ShadowMap, answer, check};
-use crate::{describe::Caster, error::Unsupported, shader::Cutout};
+use crate::{ShadowMap, error::Unsupported, map::ask_now};
 
 /// How meshes with holes are drawn for one shadow map: made by
 /// [`ShadowMap::cutout_caster`], taken by [`CasterPass::draw_cutout`](crate::CasterPass::draw_cutout).
@@ -11,7 +10,7 @@ pub struct CutoutCaster {
 }
 
 impl ShadowMap {
-    /// For casters with holes, where the technique's caster is not [`Caster::Depth`]: what
+    /// For casters with holes, where the technique's caster is not [`Caster::Depth`](crate::technique::Caster::Depth): what
     /// [`CasterPass::draw_cutout`](crate::CasterPass::draw_cutout) draws them with, with the caller's
     /// own bindings, described by `layouts`, from group 2 on.
     ///
@@ -39,22 +38,30 @@ impl ShadowMap {
         wgsl: &str,
         layouts: &[&wgpu::BindGroupLayout],
     ) -> Result<Option<CutoutCaster>, Unsupported> {
-        let composition = &self.composition;
-        if composition.description.caster == Caster::Depth {
-            return Ok(None);
-        }
-        check::cutout(device, &composition.description, layouts.len())?;
-        let (pipeline, refusal) = answer::ask_now(device, || {
-            let triangles = self.triangles.as_ref().map(|t| t.cutout(device, composition, wgsl, layouts));
-            let cutout = Cutout { wgsl, by_ray: composition.asks };
-            triangles.or_else(|| self.numbered().map(|n| n.cutout(device, composition, cutout, layouts)))
-        });
-        match refusal {
-            None => Ok(pipeline.map(|pipeline| CutoutCaster { pipeline })),
-            Some(refusal) => {
-                let technique = composition.description.about.name.into();
-                Err(Unsupported::Cutout { technique, reason: refusal.to_string() })
+        let Some(shader) = self.plan().cutout(wgsl) else { return Ok(None) };
+        let technique = self.description().about.name;
+        check_groups(device, technique, layouts.len())?;
+        match ask_now(device, || self.cast().cutout(device, &shader.text, layouts)) {
+            (pipeline, None) => Ok(pipeline.map(|pipeline| CutoutCaster { pipeline })),
+            (_, Some(refusal)) => {
+                Err(Unsupported::Cutout { technique: technique.into(), reason: refusal.to_string() })
             }
         }
     }
+}
+
+/// Groups of the library's own in passes that draw triangles.
+const CASTER_GROUPS: usize = 2;
+
+/// Whether a pass for cut-outs may have as many groups of the caller's.
+fn check_groups(device: &wgpu::Device, technique: &str, groups: usize) -> Result<(), Unsupported> {
+    let (needed, max) = (CASTER_GROUPS + groups, device.limits().max_bind_groups as usize);
+    if needed <= max {
+        return Ok(());
+    }
+    let most = max.saturating_sub(CASTER_GROUPS);
+    let reason = format!(
+        "{needed} bind groups, {groups} of the caller's, where {max} are possible; put what the shader reads into at most {most}"
+    );
+    Err(Unsupported::Cutout { technique: technique.into(), reason })
 }

@@ -1,6 +1,6 @@
 //! Meshes that cast shadows where techniques keep triangles.
 
-use super::caster::mesh_layout;
+use super::pipeline::mesh_layout;
 use crate::error::MeshError;
 use glam::Mat4;
 use std::{

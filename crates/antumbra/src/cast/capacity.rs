@@ -1,11 +1,6 @@
 //! How many triangles a map has memory for.
 
-use super::{
-    Options,
-    lists::{ListSize, ROW},
-    ranked::RankedSize,
-};
-use crate::{describe::Caster, shader::split::Splits};
+use crate::error::{SettingError, Unsupported};
 
 /// Memory that a [`ShadowMap`](crate::ShadowMap) allocates for triangles, where its technique keeps them by
 /// id: those whose [`caster`](crate::Description::caster) is [`Caster::Lists`] or [`Caster::Ranked`]. All
@@ -42,21 +37,20 @@ impl Capacity {
     pub fn id_bits(self) -> u32 {
         self.triangles.clamp(2, Self::MAX_TRIANGLES).next_power_of_two().ilog2()
     }
-
-    /// Rows of textures of vertices.
-    pub(super) fn rows(self) -> u32 {
-        self.triangles.div_ceil(ROW)
-    }
 }
 
-/// How the arrays of such a map are split into buffers.
-pub(crate) fn splits(caster: Caster, limits: &wgpu::Limits, options: &Options) -> Splits {
-    let Options { size, views, capacity, cutouts, .. } = *options;
-    match caster {
-        Caster::Depth | Caster::Triangles(_) => Splits::default(),
-        Caster::Lists => ListSize { size, views, capacity, cutouts }.splits(limits),
-        Caster::Ranked { keeps } => RankedSize { size, views, keeps, capacity, cutouts }.splits(limits),
-    }
+/// Whether a capacity holds anything, and ids can tell all of it apart.
+pub(super) fn check(capacity: Capacity) -> Result<(), Unsupported> {
+    let within = |name: &str, value: u32, max: u32| match (1..=max).contains(&value) {
+        true => Ok(()),
+        false => Err(Unsupported::Setting(SettingError::OutOfRange {
+            parameter: format!("Options::capacity.{name}"),
+            value: value.to_string(),
+            allowed: format!("1 to {max}"),
+        })),
+    };
+    within("triangles", capacity.triangles, Capacity::MAX_TRIANGLES)?;
+    within("triangles_per_texel", capacity.triangles_per_texel, u32::MAX)
 }
 
 #[cfg(test)]

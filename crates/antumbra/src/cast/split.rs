@@ -4,54 +4,35 @@ use std::fmt::Write;
 
 /// How an array is split into buffers: each holds as many elements, the last one what is left.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Split {
+pub(super) struct Split {
     /// Elements of the whole array, 1 or more.
-    pub(crate) elements: u64,
+    pub(super) elements: u64,
     /// Elements of a buffer, 1 or more.
-    pub(crate) each: u64,
-}
-
-/// The arrays of casters that keep triangles by id.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Splits {
-    /// Keys of [`Caster::Ranked`](crate::technique::Caster::Ranked).
-    pub(crate) keys: Split,
-    /// Its triangles' corners, three to an element.
-    pub(crate) corners: Split,
-    /// Counts of [`Caster::Lists`](crate::technique::Caster::Lists).
-    pub(crate) counts: Split,
-}
-
-impl Default for Splits {
-    /// Of casters that have none.
-    fn default() -> Self {
-        let none = Split::new(1, 1, 1);
-        Self { keys: none, corners: none, counts: none }
-    }
+    pub(super) each: u64,
 }
 
 impl Split {
     /// Most buffers of an array.
-    pub(crate) const MAX_BUFFERS: u32 = 8;
+    pub(super) const MAX_BUFFERS: u32 = 8;
 
     /// Of elements of `bytes` bytes each, in buffers of at most `max` bytes.
-    pub(crate) fn new(elements: u64, bytes: u64, max: u64) -> Self {
+    pub(super) fn new(elements: u64, bytes: u64, max: u64) -> Self {
         let elements = elements.max(1);
         Self { elements, each: (max / bytes).clamp(1, elements) }
     }
 
     /// Number of buffers.
-    pub(crate) fn count(self) -> u32 {
+    pub(super) fn count(self) -> u32 {
         u32::try_from(self.elements.div_ceil(self.each)).unwrap_or(u32::MAX)
     }
 
     /// Elements of each buffer in turn.
-    pub(crate) fn sizes(self) -> impl Iterator<Item = u64> {
+    pub(super) fn sizes(self) -> impl Iterator<Item = u64> {
         (0..u64::from(self.count())).map(move |i| self.each.min(self.elements - i * self.each))
     }
 
     /// WGSL that declares the buffers `name_0`, `name_1` … of `group` as arrays of `of`.
-    pub(crate) fn declared(
+    pub(super) fn declared(
         self,
         name: &str,
         access: &str,
@@ -71,7 +52,7 @@ impl Split {
 
     /// WGSL statements for element `i`: what `does` makes of a buffer's name and of an index within it, which
     /// must return.
-    pub(crate) fn chosen(self, name: &str, does: impl Fn(&str, &str) -> String) -> String {
+    pub(super) fn chosen(self, name: &str, does: impl Fn(&str, &str) -> String) -> String {
         let last = self.count() - 1;
         (0..=last).fold(String::new(), |mut text, k| {
             let start = u64::from(k) * self.each;

@@ -1,7 +1,7 @@
 //! Storage arrays in as many buffers as bindings of the device need.
 
-use super::{memory::MemoryItem, numbered};
-use crate::shader::split::Split;
+use super::{objects, split::Split};
+use crate::map::MemoryItem;
 use std::ops::Range;
 use wgpu::{BindingResource, Buffer, BufferUsages};
 
@@ -18,13 +18,18 @@ impl Pieces {
     /// Of elements of `bytes` bytes each.
     pub(super) fn new(device: &wgpu::Device, label: &str, split: Split, bytes: u64) -> Self {
         let usage = BufferUsages::STORAGE | BufferUsages::COPY_DST | BufferUsages::COPY_SRC;
-        let buffer = |elements| numbered::buffer(device, label, elements * bytes, usage);
+        let buffer = |elements| objects::buffer(device, label, elements * bytes, usage);
         Self { split, bytes, buffers: split.sizes().map(buffer).collect() }
     }
 
     /// What shaders bind, in order.
     pub(super) fn bindings(&self) -> impl Iterator<Item = BindingResource<'_>> {
         self.buffers.iter().map(Buffer::as_entire_binding)
+    }
+
+    /// Its first buffer: all of it, unless it is large.
+    pub(super) fn first(&self) -> Option<&Buffer> {
+        self.buffers.first()
     }
 
     /// Fills some elements with zeros.

@@ -1,6 +1,6 @@
 //! The pass that casters are drawn in: it knows what it draws, and notices what leaves nothing there.
 
-use super::{CasterMesh, CutoutCaster, caster::perspective};
+use super::{CasterMesh, CutoutCaster, Seen, views::perspective};
 use crate::{
     describe::{Caster, Description},
     error::CasterError,
@@ -36,13 +36,9 @@ pub(super) struct MeshPipeline<'a> {
 }
 
 impl<'a> CasterPass<'a> {
-    /// The pass for `view`, which is number `index` of the map's caster views; without `meshes` the technique
-    /// keeps depth.
-    pub(super) fn new(
-        pass: RenderPass<'a>,
-        (index, view): (usize, &'a View),
-        meshes: Option<MeshPipeline<'a>>,
-    ) -> Self {
+    /// Without `meshes` the technique keeps depth.
+    pub(super) fn new(pass: RenderPass<'a>, seen: Seen<'a>, meshes: Option<MeshPipeline<'a>>) -> Self {
+        let Seen { index, from: view, .. } = seen;
         Self { pass, view, index, meshes, set: None, next_id: 0, drawn: Drawn::default() }
     }
 
@@ -118,9 +114,30 @@ impl<'a> CasterPass<'a> {
     }
 
     /// Ids that its triangles took, from 0 on.
-    pub(super) fn ids(&self) -> u32 {
+    pub(crate) fn ids(&self) -> u32 {
         self.next_id
     }
+}
+
+/// Begins a pass with depth that is cleared to 1.
+pub(super) fn begin<'a>(
+    encoder: &'a mut wgpu::CommandEncoder,
+    colour: Option<wgpu::RenderPassColorAttachment<'_>>,
+    (depth, store): (&wgpu::TextureView, wgpu::StoreOp),
+    timestamp_writes: Option<wgpu::RenderPassTimestampWrites<'_>>,
+) -> RenderPass<'a> {
+    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        label: Some("shadow cast"),
+        color_attachments: if colour.is_some() { std::slice::from_ref(&colour) } else { &[] },
+        depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+            view: depth,
+            depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(1.0), store }),
+            stencil_ops: None,
+        }),
+        timestamp_writes,
+        occlusion_query_set: None,
+        multiview_mask: None,
+    })
 }
 
 impl<'a> Deref for CasterPass<'a> {
@@ -141,7 +158,7 @@ impl DerefMut for CasterPass<'_> {
 
 /// How passes were drawn in.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Drawn {
+pub(crate) struct Drawn {
     /// As meshes.
     meshes: bool,
     /// By the caller's own commands, which meshes with holes need too.
@@ -150,13 +167,13 @@ pub(super) struct Drawn {
 
 impl Drawn {
     /// Takes what a pass was used for to mind.
-    pub(super) fn add(&mut self, pass: &CasterPass<'_>) {
+    pub(crate) fn add(&mut self, pass: &CasterPass<'_>) {
         self.meshes |= pass.drawn.meshes;
         self.otherwise |= pass.drawn.otherwise;
     }
 
     /// Whether that is what the technique keeps. Nothing at all is: there may be no casters.
-    pub(super) fn check(self, description: &Description) -> Result<(), CasterError> {
+    pub(crate) fn check(self, description: &Description) -> Result<(), CasterError> {
         let name = || description.about.name.to_string();
         let depth = description.caster == Caster::Depth;
         match self {

@@ -1,0 +1,152 @@
+//! How casters are drawn and what is kept of them: one file per store.
+//!
+//! A store first makes a [`Plan`], which knows texts and sizes and no device, and from that its objects on the
+//! GPU, a [`Cast`]. Stores that keep triangles by id are descriptions alone ([`Store`]); `ids.rs` does for all of
+//! them what they describe.
+
+use crate::{
+    capabilities::Capabilities,
+    describe::Caster,
+    error::Unsupported,
+    light::View,
+    map::{MemoryItem, Options, Pipelines, Probe, Textures},
+    shader::{Composition, Shader},
+};
+use std::fmt::Debug;
+use wgpu::{BindGroupLayout, BindingResource, BindingType, Buffer, CommandEncoder, RenderPipeline};
+
+mod abuffer;
+mod arrays;
+mod capacity;
+mod cutout;
+mod depth;
+mod ids;
+mod kbuffer;
+mod mesh;
+mod nearest;
+mod objects;
+mod pass;
+mod pieces;
+mod pipeline;
+mod split;
+mod store;
+mod triangle;
+mod views;
+
+pub(crate) use arrays::{Array, Element, Image};
+pub use capacity::Capacity;
+pub use cutout::CutoutCaster;
+pub use mesh::{CasterMesh, MeshPart};
+pub use pass::CasterPass;
+pub(crate) use pass::Drawn;
+#[cfg(feature = "store")]
+pub(crate) use store::OwnStore;
+pub(crate) use store::{Site, Step, Store};
+
+/// The plan of what a technique's casters leave in a map: the only place that knows all stores.
+pub(crate) fn plan<'a>(
+    composition: &'a Composition,
+    device: &'a Capabilities,
+    options: &'a Options,
+) -> Box<dyn Plan + 'a> {
+    let site = Site::new(composition, device, options);
+    let ids = |store: Box<dyn Store>| Box::new(ids::IdPlan::new(store, site.clone()));
+    match composition.description.caster {
+        Caster::Depth => Box::new(depth::DepthPlan),
+        Caster::Triangles(coverages) => {
+            Box::new(nearest::NearestPlan { composition, device, options, coverages })
+        }
+        Caster::Lists => ids(Box::new(abuffer::ABuffer)),
+        Caster::Ranked { keeps } => ids(Box::new(kbuffer::KBuffer { capacity: keeps })),
+        #[cfg(feature = "store")]
+        Caster::Own(OwnStore(store)) => Box::new(ids::IdPlan::new(store, site)),
+    }
+}
+
+/// What is known of a store in a map beforehand.
+pub(crate) trait Plan {
+    /// Whether the device can hold it.
+    fn check(&self) -> Result<(), Unsupported>;
+    /// Shaders that are compiled with the map.
+    fn shaders(&self) -> Vec<Shader>;
+    /// The shader that draws meshes with holes, given the caller's WGSL; none where casters are depth.
+    fn cutout(&self, wgsl: &str) -> Option<Shader>;
+    /// WGSL of what lookups bind in `group`, from binding `first` on, and call.
+    fn lookups(&self, _group: u32, _first: u32) -> String {
+        String::new()
+    }
+    /// Allocates and compiles everything.
+    fn build(&self, device: &wgpu::Device, pipelines: &Pipelines) -> Box<dyn Cast>;
+}
+
+/// A store on the GPU.
+pub(crate) trait Cast: Debug + Send + Sync {
+    /// Takes this frame's views.
+    fn write(&self, _queue: &wgpu::Queue, _views: &[View]) {}
+    /// Has casters drawn for one view.
+    fn encode(
+        &self,
+        encoder: &mut CommandEncoder,
+        seen: Seen<'_>,
+        textures: &Textures,
+        probe: &mut dyn Probe,
+        draw: &mut dyn FnMut(&mut CasterPass<'_>),
+    );
+    /// What lookups bind beside what the technique names, in order.
+    fn bindings(&self) -> Vec<(BindingType, BindingResource<'_>)> {
+        Vec::new()
+    }
+    /// A pipeline of the shader that [`Plan::cutout`] gives.
+    fn cutout(
+        &self,
+        device: &wgpu::Device,
+        shader: &str,
+        user: &[&BindGroupLayout],
+    ) -> Option<RenderPipeline>;
+    /// What [`ShadowMap::list_totals`](crate::ShadowMap::list_totals) promises.
+    fn totals(&self) -> Option<&Buffer> {
+        None
+    }
+    /// Passes that [`encode`](Self::encode) takes beside the first that draws casters.
+    fn passes(&self) -> Vec<&'static str> {
+        Vec::new()
+    }
+    /// One sentence for `explain`, if there is anything to say.
+    fn explain(&self) -> Option<String> {
+        None
+    }
+    /// What it allocated.
+    fn memory(&self) -> Vec<MemoryItem> {
+        Vec::new()
+    }
+}
+
+/// The view that casters are drawn for.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Seen<'a> {
+    /// Number of the view that receivers know.
+    pub(crate) view: usize,
+    /// Which of the caster passes of that view it is.
+    pub(crate) cast: usize,
+    /// Number among all caster views.
+    pub(crate) index: usize,
+    /// What casters are placed by.
+    pub(crate) from: &'a View,
+}
+
+/// What a technique needs that the device or its description lacks, and what to do.
+fn refused(technique: &str, what: String, instead: String) -> Result<(), Unsupported> {
+    Err(Unsupported::Feature { technique: technique.into(), what, instead })
+}
+
+/// Whether a technique asks for casters once per view.
+fn check_casts(technique: &str, casts: usize) -> Result<(), Unsupported> {
+    match casts {
+        1 => Ok(()),
+        _ => refused(
+            technique,
+            "a single caster pass".into(),
+            "describe no more in Description::sample_offsets".into(),
+        ),
+    }
+}

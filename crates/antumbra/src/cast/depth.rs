@@ -1,0 +1,49 @@
+//! Casters that leave depth, by the renderer's own pipelines.
+
+use super::{Cast, CasterPass, Plan, Seen, pass};
+use crate::{
+    error::Unsupported,
+    map::{Pipelines, Probe, Textures},
+    shader::Shader,
+};
+use wgpu::{BindGroupLayout, CommandEncoder, RenderPipeline, StoreOp};
+
+/// Nothing is allocated beside the depth, which the map has in any case.
+#[derive(Debug)]
+pub(super) struct DepthPlan;
+
+#[derive(Debug)]
+struct DepthCast;
+
+impl Plan for DepthPlan {
+    fn check(&self) -> Result<(), Unsupported> {
+        Ok(())
+    }
+    fn shaders(&self) -> Vec<Shader> {
+        Vec::new()
+    }
+    fn cutout(&self, _: &str) -> Option<Shader> {
+        None
+    }
+    fn build(&self, _: &wgpu::Device, _: &Pipelines) -> Box<dyn Cast> {
+        Box::new(DepthCast)
+    }
+}
+
+impl Cast for DepthCast {
+    fn encode(
+        &self,
+        encoder: &mut CommandEncoder,
+        seen: Seen<'_>,
+        textures: &Textures,
+        probe: &mut dyn Probe,
+        draw: &mut dyn FnMut(&mut CasterPass<'_>),
+    ) {
+        let depth = (textures.caster_target(seen.view, seen.cast), StoreOp::Store);
+        let pass = pass::begin(encoder, None, depth, probe.pass("cast", seen.view));
+        draw(&mut CasterPass::new(pass, seen, None));
+    }
+    fn cutout(&self, _: &wgpu::Device, _: &str, _: &[&BindGroupLayout]) -> Option<RenderPipeline> {
+        None
+    }
+}

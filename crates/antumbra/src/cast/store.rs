@@ -1,0 +1,140 @@
+//! What a store that keeps triangles by id is, as a description.
+
+#![cfg_attr(not(feature = "store"), allow(unreachable_pub, reason = "public with the feature alone"))]
+
+use super::arrays::{Array, Image};
+use crate::{
+    capabilities::Capabilities, cast::Capacity, error::Unsupported, light::Size, map::Options,
+    shader::Composition,
+};
+use std::fmt::Debug;
+
+/// The map that a store is for.
+#[derive(Debug, Clone)]
+pub struct Site<'a> {
+    /// Name of the technique.
+    pub technique: &'static str,
+    /// Texels of a view.
+    pub size: Size,
+    /// Number of views.
+    pub views: u32,
+    /// Memory for triangles.
+    pub capacity: Capacity,
+    /// Whether lookups ask about the holes of cut-outs.
+    pub asks: bool,
+    /// What the device can do.
+    pub device: &'a Capabilities,
+    /// Passes that the technique asks for in each view.
+    pub(super) casts: usize,
+}
+
+impl<'a> Site<'a> {
+    pub(super) fn new(composition: &Composition, device: &'a Capabilities, options: &Options) -> Self {
+        Self {
+            technique: composition.description.about.name,
+            size: options.size,
+            views: options.views,
+            capacity: options.capacity,
+            asks: composition.asks,
+            device,
+            casts: composition.description.sample_offsets.len(),
+        }
+    }
+
+    /// Texels of a view.
+    #[must_use]
+    pub fn texels(&self) -> u64 {
+        u64::from(self.size.width) * u64::from(self.size.height)
+    }
+}
+
+/// Something that is done for each view. Its WGSL reads two numbers as `caster_step.words`, beside
+/// `caster_step.view` and `caster_step.triangles`, how many ids there are.
+#[derive(Debug, Clone, Copy)]
+pub enum Step {
+    /// Casters are drawn, by the store's [`wgsl`](Store::wgsl).
+    Draw {
+        /// `caster_step.words`.
+        words: [u32; 2],
+    },
+    /// A compute pass, entry point `compute`.
+    Compute {
+        /// What [`Probe::pass`](crate::Probe::pass) hears.
+        label: &'static str,
+        /// The shader, which calls functions of arrays and images.
+        wgsl: &'static str,
+        /// Workgroups.
+        workgroups: u32,
+        /// `caster_step.words`.
+        words: [u32; 2],
+    },
+}
+
+/// A way to keep triangles by id: the vertices of all of them in a table, and for each texel whatever the store
+/// makes of those that touch it.
+///
+/// The library draws triangles conservatively, keeps their vertices, and binds what the store describes. Its WGSL
+/// reads and writes [`Array`]s and [`Image`]s by functions whose names begin with theirs; the library writes those that
+/// are called.
+pub trait Store: Debug + Send + Sync {
+    /// What begins the names of its items in [`ShadowMap::memory`](crate::ShadowMap::memory).
+    fn name(&self) -> &'static str;
+    /// Arrays beside those of the vertices.
+    fn arrays(&self, site: &Site<'_>) -> Vec<Array>;
+    /// Images of whole numbers.
+    fn images(&self, _site: &Site<'_>) -> Vec<Image> {
+        Vec::new()
+    }
+    /// What is done for each view, in order.
+    fn steps(&self, site: &Site<'_>) -> Vec<Step>;
+    /// Shared files that its WGSL needs.
+    fn needs(&self) -> &'static [&'static str] {
+        &[]
+    }
+    /// Members of `CasterTriangle` that its WGSL fills, beside `id: u32`: names and types.
+    fn varyings(&self) -> &'static [(&'static str, &'static str)] {
+        &[]
+    }
+    /// WGSL that draws triangles. It defines `store_triangle(shaped: CasterTriangle, triangle: u32, seen:
+    /// mat3x3f, id: u32) -> CasterTriangle`, which fills the varyings of a triangle; `store_depth(in: CasterTriangle, at: vec2f)
+    /// -> f32`, its depth at a point from corner 0; `store_keeps_vertices() -> bool`, whether this step keeps
+    /// vertices; and the entry point `fragment`, which calls `caster_touch(in)`, and `vertices_keep_all(in)` for
+    /// triangles that it keeps.
+    fn wgsl(&self) -> &'static str;
+    /// WGSL through which the technique looks up what is kept. `shadow_corner(view: u32, id: u32, corner: u32)
+    /// -> vec3f` and `shadow_stops(view: u32, id: u32, a: vec3f, b: vec3f, c: vec3f) -> bool`, whether the ray
+    /// that the corners lie around meets no hole, come with the vertices.
+    fn lookups(&self, site: &Site<'_>) -> String;
+    /// Whether fragments store depth, the least of each texel.
+    fn keeps_depth(&self) -> bool {
+        false
+    }
+    /// The array that [`ShadowMap::list_totals`](crate::ShadowMap::list_totals) gives, if any.
+    fn totals(&self) -> Option<&'static str> {
+        None
+    }
+    /// One sentence for [`ShadowMap::explain`](crate::ShadowMap::explain).
+    fn explain(&self, site: &Site<'_>) -> String;
+    /// Whether its settings can be.
+    ///
+    /// # Errors
+    /// [`Unsupported`].
+    fn check(&self, _site: &Site<'_>) -> Result<(), Unsupported> {
+        Ok(())
+    }
+}
+
+/// A store of a technique's own.
+#[cfg(feature = "store")]
+#[derive(Debug, Clone, Copy)]
+pub struct OwnStore(pub &'static dyn Store);
+
+#[cfg(feature = "store")]
+impl PartialEq for OwnStore {
+    fn eq(&self, other: &Self) -> bool {
+        std::ptr::addr_eq(self.0, other.0)
+    }
+}
+
+#[cfg(feature = "store")]
+impl Eq for OwnStore {}
