@@ -39,9 +39,9 @@ pub struct Results {
 /// Time of the hard truth, seconds.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct TruthTime {
-    /// To build the acceleration structure.
+    /// Time to build the acceleration structure.
     pub seconds_build: f64,
-    /// To trace.
+    /// Time to trace.
     pub seconds_hard: f64,
 }
 

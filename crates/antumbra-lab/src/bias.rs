@@ -82,13 +82,13 @@ pub struct Study {
 /// [`Bias::Auto`] among the other biases of one technique.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ranking<'a> {
-    /// Of [`Bias::Auto`].
+    /// Row of [`Bias::Auto`].
     pub auto: &'a Row,
-    /// Of the other biases, in their order.
+    /// Rows of the other biases, in their order.
     pub others: Vec<&'a Row>,
-    /// The one of least error among those with at most [`TOLERATED_ACNE`], if there is one.
+    /// Row of the smallest error among the rows with at most [`TOLERATED_ACNE`], if there is one.
     pub best: Option<&'a Row>,
-    /// The one of least error, whatever its acne.
+    /// Row of the smallest error, whatever its acne.
     pub best_of_all: &'a Row,
 }
 

@@ -20,7 +20,7 @@ pub struct Curve {
 /// Curves over common axes, with a legend below.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Panel {
-    /// In the order of the legend; earlier ones are drawn broader, so that equal ones stay visible.
+    /// Curves in the order of the legend; earlier ones are drawn broader, so that equal ones stay visible.
     pub curves: Vec<Curve>,
     /// Left and right end.
     pub x: [f64; 2],

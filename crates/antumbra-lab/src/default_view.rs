@@ -72,7 +72,8 @@ fn score(tracer: &Tracer<'_>, rays: &CameraRays, light: &Light) -> f64 {
     4.0 * share * (1.0 - share) * shadowable / picture.values.len() as f64
 }
 
-/// Of a building views from inside, along its longer side, of all else the usual one from outside.
+/// Cameras that are tried: of a building views from inside, along its longer side, of all else views from
+/// outside.
 fn cameras(scene: &Scene, tracer: &Tracer<'_>) -> Vec<Camera> {
     let outside = scene.default_camera();
     let Some(bounds) = scene.main_bounds() else { return vec![outside] };

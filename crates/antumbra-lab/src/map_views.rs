@@ -16,7 +16,7 @@ pub struct MapViews {
 }
 
 impl MapViews {
-    /// Of maps of `size` × `size` texels behind a filter of `kernel` taps and a bilinear lookup.
+    /// The views of maps of `size` × `size` texels behind a filter of `kernel` taps and a bilinear lookup.
     ///
     /// # Errors
     /// No views.
@@ -24,7 +24,7 @@ impl MapViews {
         Self::reaching(views, size, 0.5 * (f64::from(kernel) + 1.0))
     }
 
-    /// Of maps of `size` × `size` texels, for lookups that read up to `reach` texels around a point.
+    /// The views of maps of `size` × `size` texels, for lookups that read up to `reach` texels around a point.
     ///
     /// # Errors
     /// No views.

@@ -22,7 +22,7 @@ pub const EDGE_PIXELS: u32 = 2;
 /// the definitions): closer by, blur and aliasing are counted by the other metrics.
 pub const DEEP_PIXELS: u32 = 4;
 
-/// Fewest pixels over which leak and over-darkening are told. A mean of n values between 0 and 1 that are
+/// Smallest number of pixels over which leak and over-darkening are given. A mean of n values between 0 and 1 that are
 /// as different as can be is known to ½/√n: to 2.5 % with 400 pixels, a square of 20 × 20. Over fewer, one
 /// small spot decides.
 pub const MIN_DEEP_PIXELS: u64 = 400;

@@ -98,7 +98,7 @@ pub(crate) fn lines(image: &mut Rgba8Image, points: &[[f64; 2]], width: f64, col
     }
 }
 
-/// From a point to a line between two others.
+/// Distance from a point to a line between two others.
 fn distance(point: [f64; 2], from: [f64; 2], to: [f64; 2]) -> f64 {
     let along = [to[0] - from[0], to[1] - from[1]];
     let arm = [point[0] - from[0], point[1] - from[1]];

@@ -219,7 +219,7 @@ fn spread(samples: &[f64]) -> Spread {
     Spread { median_ms: at(sorted.len() / 2), min_ms: at(0), max_ms: at(sorted.len().saturating_sub(1)) }
 }
 
-/// Fills in what `times` are in multiples of those of the standard shadow map, which is number `hard` among
+/// Fills in the ratios of `times` to the times of the standard shadow map, which is number `hard` among
 /// them; `unshadowed` is what shading takes without any.
 pub fn relate(times: &mut [TimeResult], unshadowed: &TimeResult, hard: Option<usize>) {
     let Some(hard) = hard.and_then(|i| times.get(i)).cloned() else { return };

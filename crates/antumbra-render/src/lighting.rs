@@ -21,13 +21,13 @@ pub struct Lookup {
 }
 
 impl Lookup {
-    /// For the visibility in one shadow map; 1 where there is no surface.
+    /// Asks for the visibility in one shadow map; 1 where there is no surface.
     #[must_use]
     pub fn new(gpu: &Gpu, scene: &GpuScene, shadows: &ShadowMap) -> Self {
         Self::asking(gpu, scene, shadows, shaders::VISIBILITY)
     }
 
-    /// For the class of every surface, if the technique has classes: 0 for none, else 1 + the index of its class,
+    /// Asks for the class of every surface, if the technique has classes: 0 for none, else 1 + the index of its class,
     /// or a negative number where there is no surface.
     #[must_use]
     pub fn classes(gpu: &Gpu, scene: &GpuScene, shadows: &ShadowMap) -> Option<Self> {

@@ -42,7 +42,7 @@ pub struct GpuScene {
     positions: wgpu::Buffer,
     attributes: wgpu::Buffer,
     indices: wgpu::Buffer,
-    /// With ranges of indices; opaque ones first.
+    /// Draws with their ranges of indices; opaque draws first.
     groups: Vec<(Group, std::ops::Range<u32>)>,
     materials: Materials,
     /// `None` where lookups cannot ask about cut-outs.
@@ -54,7 +54,7 @@ pub struct GpuScene {
     frame_group: wgpu::BindGroup,
     surfaces: Surfaces,
     capacity: Capacity,
-    /// Of the casters' buffers, as bindings can hold them.
+    /// Parts of the casters' buffers, as bindings can hold them.
     parts: Vec<antumbra::MeshPart>,
 }
 
@@ -151,7 +151,7 @@ impl GpuScene {
         }
     }
 
-    /// The index behind those of opaque triangles, which come first.
+    /// End of the indices of opaque triangles, which come first.
     fn opaque_end(&self) -> u32 {
         self.groups.iter().filter(|g| !g.0.masked).map(|g| g.1.end).max().unwrap_or(0)
     }

@@ -3,7 +3,7 @@
 use crate::{
     gallery,
     page::{Cell, Page, Table, Unit},
-    raster::difference,
+    stored_image::difference,
     target::{Source, Target},
     verdict::{Verdict, at_most, less, more},
     workbench::Workbench,

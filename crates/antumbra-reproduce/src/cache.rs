@@ -41,7 +41,7 @@ impl Cache {
     /// The measurement of that key, taken from disk if it is there, else made and kept.
     ///
     /// # Errors
-    /// Those of `make`; a folder that cannot be written to.
+    /// What `make` returns; a folder that cannot be written to.
     pub fn memo<T: Serialize + DeserializeOwned>(
         &self,
         key: &impl Serialize,

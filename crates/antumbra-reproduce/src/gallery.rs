@@ -2,7 +2,7 @@
 
 use crate::{
     page::{Page, Tile},
-    raster::{Raster, Window, busiest},
+    stored_image::{StoredImage, Window, busiest},
 };
 use anyhow::Result;
 
@@ -11,7 +11,7 @@ pub(crate) fn rows(
     page: &mut Page,
     captions: [&str; 2],
     columns: usize,
-    pictures: &[(&str, &Raster)],
+    pictures: &[(&str, &StoredImage)],
     window: Window,
 ) -> Result<()> {
     let whole = pictures.iter().map(|(name, picture)| Tile::new(*name, &picture.framed(window)));
@@ -24,7 +24,7 @@ pub(crate) fn close_ups(
     page: &mut Page,
     caption: &str,
     columns: usize,
-    pictures: &[(&str, &Raster)],
+    pictures: &[(&str, &StoredImage)],
     window: Window,
 ) -> Result<()> {
     let close = pictures.iter().map(|(name, picture)| Tile::close_up(*name, picture, window));
@@ -33,6 +33,6 @@ pub(crate) fn close_ups(
 }
 
 /// A window of a `part`th of the picture each way, where the weights are largest.
-pub(crate) fn window(weights: &[f64], picture: &Raster, part: u32) -> Window {
+pub(crate) fn window(weights: &[f64], picture: &StoredImage, part: u32) -> Window {
     busiest(weights, picture.size, picture.size.map(|n| n / part))
 }

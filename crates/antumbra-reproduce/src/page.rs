@@ -1,7 +1,7 @@
 //! A page as data: what it says, its tables with the paper's numbers beside ours, pictures, plots and
 //! verdicts. [`crate::html`] shows it; [`crate::results`] keeps its numbers.
 
-use crate::{raster::Raster, verdict::Verdict};
+use crate::{stored_image::StoredImage, verdict::Verdict};
 use antumbra_lab::chart::Panel;
 use anyhow::Result;
 use serde::{Deserialize, Serialize};
@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 /// What a target found.
 #[derive(Debug, Clone, Default)]
 pub struct Page {
-    /// From top to bottom.
+    /// Its parts, from top to bottom.
     pub blocks: Vec<Block>,
     /// What became of the paper's claims.
     pub verdicts: Vec<Verdict>,
@@ -46,7 +46,7 @@ pub struct Table {
 pub struct Row {
     /// What the row is.
     pub name: String,
-    /// One for each heading but the first.
+    /// One cell for each heading but the first.
     pub cells: Vec<Cell>,
 }
 
@@ -108,7 +108,7 @@ pub struct Matrix {
     pub caption: String,
     /// The numbers' meanings, from left to right.
     pub columns: Vec<Column>,
-    /// In the order they were measured.
+    /// Its rows, in the order in which they were measured.
     pub rows: Vec<Entry>,
 }
 
@@ -140,7 +140,7 @@ pub struct Entry {
     pub title: String,
     /// Group of techniques, also the colour of its mark.
     pub family: String,
-    /// One for each column.
+    /// One value for each column.
     pub values: Vec<Option<f64>>,
     /// Columns in which no other row of the scene is both better and faster.
     #[serde(rename = "leads")]
@@ -201,15 +201,15 @@ impl Tile {
     ///
     /// # Errors
     /// What the encoder says.
-    pub fn new(caption: impl Into<String>, picture: &Raster) -> Result<Self> {
+    pub fn new(caption: impl Into<String>, picture: &StoredImage) -> Result<Self> {
         Ok(Self { caption: caption.into(), png: picture.png()?, size: picture.size, close_up: false })
     }
 
     /// A part of one, enlarged by the page.
     ///
     /// # Errors
-    /// As [`Raster::close_up`].
-    pub fn close_up(caption: impl Into<String>, picture: &Raster, window: [u32; 4]) -> Result<Self> {
+    /// As [`StoredImage::close_up`].
+    pub fn close_up(caption: impl Into<String>, picture: &StoredImage, window: [u32; 4]) -> Result<Self> {
         Ok(Self { close_up: true, ..Self::new(caption, &picture.close_up(window, 1)?)? })
     }
 }

@@ -36,7 +36,7 @@ pub struct Reproduction {
     pub program: Program,
     /// The graphics adapter that it ran on.
     pub adapter: AdapterFacts,
-    /// One for each page.
+    /// One record for each page.
     pub targets: Vec<Record>,
 }
 

@@ -25,7 +25,7 @@ use std::{
 /// What to run, and where to.
 #[derive(Debug, Clone)]
 pub struct Options {
-    /// In this order.
+    /// The targets, in the order in which they run.
     pub targets: Vec<&'static Target>,
     /// The folder; pages of other targets in it stay.
     pub output: PathBuf,

@@ -2,7 +2,7 @@
 
 use crate::{
     page::{Cell, Page, Table, Tile, Unit},
-    raster::{busiest, difference},
+    stored_image::{busiest, difference},
     target::{Source, Target},
     verdict::{Verdict, at_most, less, more},
     workbench::Workbench,

@@ -1,6 +1,6 @@
 //! What is asked and what is answered: shots, studies of them, truths.
 
-use crate::{cache::packed, page::Tile, raster::Raster};
+use crate::{cache::packed, page::Tile, stored_image::StoredImage};
 use antumbra::{View, technique};
 use antumbra_lab::{
     classes::ClassShare,
@@ -49,11 +49,11 @@ pub struct Look {
     /// Name for people.
     pub title: String,
     /// The lit picture.
-    pub picture: Raster,
+    pub picture: StoredImage,
     #[serde(with = "packed")]
     pub(crate) visibility: Vec<f32>,
     /// Visibility with the kinds of pixels that the technique tells apart in colour, if it does.
-    pub tinted: Option<Raster>,
+    pub tinted: Option<StoredImage>,
     /// The shares of those kinds.
     pub classes: Vec<ClassShare>,
     /// Its textures and buffers.
@@ -69,7 +69,7 @@ pub struct Study {
     pub shot: ShotKey,
     /// Texels along one side of the maps.
     pub map: u32,
-    /// In the order they were asked for.
+    /// What each technique shows, in the order in which they were asked for.
     pub looks: Vec<Look>,
     /// Techniques that were asked for and are not among the looks: refused, or invalid.
     pub left_out: Vec<LeftOut>,
@@ -118,7 +118,7 @@ pub struct Traced {
     /// Visibility, and the pixels that see geometry facing the light.
     pub truth: TruthImage,
     /// The scene shaded with it.
-    pub picture: Raster,
+    pub picture: StoredImage,
     pub(crate) key: String,
 }
 
@@ -181,7 +181,7 @@ pub(crate) struct TracedFile {
     pub(crate) values: Vec<f32>,
     #[serde(with = "packed")]
     pub(crate) shadowable: Vec<u8>,
-    pub(crate) picture: Raster,
+    pub(crate) picture: StoredImage,
 }
 
 /// What the cache keeps of a study.

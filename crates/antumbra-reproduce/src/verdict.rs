@@ -128,7 +128,7 @@ impl Comparison {
         })
     }
 
-    /// In words, with the numbers.
+    /// The reason in words, with the numbers.
     #[must_use]
     pub fn says(&self) -> String {
         let number = |v: Option<f64>| v.map_or("not measured".into(), number);

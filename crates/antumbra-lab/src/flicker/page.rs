@@ -101,7 +101,7 @@ fn facts(results: &Results) -> String {
     facts.iter().chain(&cascades).chain(&bias).map(|fact| format!("<li>{}</li>", escape(fact))).collect()
 }
 
-/// In thousandths, so that columns can be read: 12.3.
+/// Thousandths of a value, so that columns can be read: 12.3.
 fn thousandths(value: f64) -> String {
     format!("{:.2}", 1e3 * value)
 }

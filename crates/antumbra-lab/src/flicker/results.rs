@@ -43,7 +43,7 @@ impl Promise {
         if path == Path::Recede { Self::ScreenSpace } else { Self::Hard }
     }
 
-    /// For people.
+    /// Its name for people.
     #[must_use]
     pub fn title(self) -> &'static str {
         match self {
@@ -81,9 +81,9 @@ pub struct TechniqueFlicker {
     /// Flicker against its own truth over that of hard shadow mapping against its own; `null` where
     /// that was not measured.
     pub ratio_to_hard: Option<f64>,
-    /// In the picture.
+    /// Change of the error in the picture.
     pub flicker: BTreeMap<Promise, Measured>,
-    /// On surfaces; has no screen-space ideal.
+    /// Change of the error on surfaces; has no screen-space ideal.
     pub crawl: BTreeMap<Promise, Measured>,
     /// Why these numbers are worth nothing, if so: triangles that its map had no memory for in some frame.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -141,7 +141,7 @@ pub struct Results {
     pub ideal_against_hard: f64,
     /// How often the size of a texel changed along the path: fitted maps change it in steps.
     pub texel_changes: u32,
-    /// In the order that they were named.
+    /// One entry per technique, in the order in which they were named.
     pub techniques: Vec<TechniqueFlicker>,
     /// Techniques that were asked for and refused.
     #[serde(default)]

@@ -7,7 +7,7 @@ use crate::axis::Axis;
 use crate::metrics::Score;
 use crate::results::{Results, TechniqueResult};
 
-/// Of the view box, in its units; the plotting area is what the margins leave.
+/// Size and margins of the view box, in its units; the plotting area is what the margins leave.
 const SIZE: [f64; 2] = [480.0, 340.0];
 const LEFT: f64 = 52.0;
 const RIGHT: f64 = 14.0;

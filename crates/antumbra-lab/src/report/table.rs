@@ -139,7 +139,7 @@ fn cell(column: &Column, technique: &TechniqueResult, best: Option<f64>) -> Stri
     }
 }
 
-/// In place of a mean over too few pixels: how many there are.
+/// Number of pixels, in place of a mean over too few.
 fn too_few(pixels: u64) -> String {
     format!(
         "<span title=\"only {pixels} pixels; told from {MIN_DEEP_PIXELS} on\">– <small>({pixels})</small></span>"

@@ -19,7 +19,7 @@ pub(super) enum Side {
 struct View<'a> {
     label: String,
     file: &'a str,
-    /// For an error map, the two visibility images that it is the difference of.
+    /// The two visibility images that an error map is the difference of.
     difference: Option<[&'a str; 2]>,
 }
 

@@ -18,9 +18,9 @@ const OFFSETS: [[f32; 2]; 8] =
     [[1., -3.], [-1., 3.], [5., 1.], [-3., -5.], [-5., 5.], [-7., -1.], [3., 7.], [7., -7.]];
 // What `share` in light.wgsl says.
 const _: () = assert!(OFFSETS.len() == 8);
-/// Parts of a pixel in which the offsets are given.
+/// Parts of a pixel that offsets are counted in.
 const PARTS: f32 = 16.0;
-/// Of the light's textures, in which sums of samples are blended.
+/// Format of the light's textures, in which sums of samples are blended.
 const FORMAT: TextureFormat = TextureFormat::Rgba16Float;
 
 /// The light that a scene's surfaces reflect, and the picture that it makes with a visibility buffer.

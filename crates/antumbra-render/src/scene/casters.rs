@@ -14,7 +14,7 @@ pub enum Casters {
     Triangles {
         /// All triangles of the scene.
         mesh: CasterMesh,
-        /// For masked materials: how they are drawn, and normals, texture coordinates and colours of the
+        /// How masked materials are drawn, and normals, texture coordinates and colours of the
         /// vertices. `None` if the scene has none.
         cutout: Option<(CutoutCaster, wgpu::BindGroup)>,
     },

@@ -26,7 +26,7 @@ pub(super) struct Frame {
 }
 
 impl Frame {
-    /// With the matrix from world to clip space: reversed depth keeps precision far away.
+    /// The frame, and the matrix from world to clip space: reversed depth keeps precision far away.
     pub(super) fn new(
         camera: &Camera,
         light: &Light,

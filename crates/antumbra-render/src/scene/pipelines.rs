@@ -15,9 +15,9 @@ pub(super) struct Pipelines {
     pub(super) uniform: BindGroupLayout,
     pub(super) caster: RenderPipeline,
     pub(super) masked_caster: RenderPipeline,
-    /// For triangles that a camera sees from both sides.
+    /// Pipelines for triangles that a camera sees from both sides.
     seen: Seen,
-    /// For those that it sees from their front, if there are any.
+    /// Pipelines for triangles that it sees from their front, if there are any.
     culled: Option<Seen>,
 }
 

@@ -4,7 +4,7 @@ use crate::{
     gallery,
     numbers::steps,
     page::{Cell, Page, Table, Tile, Unit},
-    raster::difference,
+    stored_image::difference,
     study::{Study, Traced},
     verdict::{Verdict, at_most, less, more},
     workbench::Workbench,

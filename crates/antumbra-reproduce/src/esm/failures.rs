@@ -4,7 +4,7 @@ use crate::{
     gallery,
     numbers::steps,
     page::{Cell, Page, Table, Tile, Unit},
-    raster::difference,
+    stored_image::difference,
     study::{Look, Study},
     verdict::{Verdict, at_least, at_most, less, more},
     workbench::Workbench,

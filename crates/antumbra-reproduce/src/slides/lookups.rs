@@ -3,7 +3,7 @@
 use crate::{
     gallery,
     page::{Block, Cell, Page, Table, Unit},
-    raster::difference,
+    stored_image::difference,
     verdict::{Verdict, at_least, at_most, less},
     workbench::Workbench,
 };

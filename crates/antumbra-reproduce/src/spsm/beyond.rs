@@ -4,7 +4,7 @@ use super::quality::studied;
 use crate::{
     gallery,
     page::{Cell, Page, Table, Unit},
-    raster::difference,
+    stored_image::difference,
     verdict::{Verdict, at_least, more},
     workbench::Workbench,
 };

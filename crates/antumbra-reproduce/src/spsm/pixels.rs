@@ -3,7 +3,7 @@
 use crate::{
     gallery,
     page::{Cell, Page, Table, Unit},
-    raster::difference,
+    stored_image::difference,
     verdict::{Verdict, at_most, less},
     workbench::Workbench,
 };

@@ -3,7 +3,7 @@
 use crate::{
     gallery,
     page::{Cell, Page, Table, Tile, Unit},
-    raster::{difference, gray},
+    stored_image::{difference, gray},
     study::{Study, Traced},
     verdict::{Verdict, at_least, less, more},
     workbench::{Workbench, first_known},
@@ -237,7 +237,7 @@ pub(super) fn figure_15(bench: &Workbench<'_>) -> Result<Page> {
         &["technique and map", "fusion", "pixel match"],
     );
     let mut found = Vec::new();
-    let mut rasters = Vec::new();
+    let mut images = Vec::new();
     let mut truth = None;
     for map in [512, 1024] {
         let (study, traced) = studied(bench, "trees", [640, 480], map, &PAIR.map(|p| p.0))?;
@@ -247,14 +247,14 @@ pub(super) fn figure_15(bench: &Workbench<'_>) -> Result<Page> {
             table.row(format!("{name}, {map}²"), cells.into());
             if spec == "spsm" {
                 found.push(score.acne);
-                rasters.push(gray(&study.look(spec)?.visibility()?));
+                images.push(gray(&study.look(spec)?.visibility()?));
             }
         }
         truth = Some(gray(&traced.truth.image));
     }
     let truth = truth.context("no truth")?;
-    let window = gallery::window(&difference(&rasters[0], &truth), &truth, 6);
-    let pictures = [("SPSM, 512²", &rasters[0]), ("SPSM, 1024²", &rasters[1]), ("rays", &truth)];
+    let window = gallery::window(&difference(&images[0], &truth), &truth, 6);
+    let pictures = [("SPSM, 512²", &images[0]), ("SPSM, 1024²", &images[1]), ("rays", &truth)];
     page.verdict(reduced(found[0], found[1]));
     let captions = ["Visibility.", "Enlarged: where the smaller map is most wrong."];
     gallery::rows(&mut page, captions, 3, &pictures, window)?;

@@ -2,7 +2,7 @@
 
 use super::{Workbench, parse};
 use crate::{
-    raster::Raster,
+    stored_image::StoredImage,
     study::{File, Look, Moving, ShotKey, Study, StudyFile, ViewFacts},
 };
 use antumbra::technique::Bias;
@@ -110,7 +110,7 @@ impl Workbench<'_> {
     ///
     /// # Errors
     /// As [`study`](Self::study).
-    pub fn sheet(&self, shot: ShotKey, map: u32, spec: &str) -> Result<Raster> {
+    pub fn sheet(&self, shot: ShotKey, map: u32, spec: &str) -> Result<StoredImage> {
         self.cache.memo(&("sheet", shot, map, spec), || {
             self.progress.step(&format!("maps of {spec} on {}", shot.scene));
             let session = Session::new(&self.gpu, &self.shot_of(&shot, map)?, &parse(&[spec])?)?;

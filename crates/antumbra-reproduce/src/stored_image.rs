@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 /// 8-bit sRGB colour that can be kept on disk.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Raster {
+pub struct StoredImage {
     /// Pixels across and down.
     pub size: [u32; 2],
     #[serde(with = "packed")]
@@ -17,13 +17,13 @@ pub struct Raster {
 /// A rectangle of pixels: left, top, width, height.
 pub type Window = [u32; 4];
 
-impl From<Rgba8Image> for Raster {
+impl From<Rgba8Image> for StoredImage {
     fn from(image: Rgba8Image) -> Self {
         Self { size: [image.width, image.height], rgba: image.rgba }
     }
 }
 
-impl Raster {
+impl StoredImage {
     /// As a PNG file.
     ///
     /// # Errors
@@ -67,7 +67,7 @@ impl Raster {
 
 /// How far two pictures of one size are apart in each pixel: squares of their differences in colour.
 #[must_use]
-pub fn difference(a: &Raster, b: &Raster) -> Vec<f64> {
+pub fn difference(a: &StoredImage, b: &StoredImage) -> Vec<f64> {
     let pixel = |(a, b): (&[u8], &[u8])| {
         a.iter().zip(b).map(|(a, b)| (f64::from(*a) - f64::from(*b)).powi(2) / 65025.0).sum()
     };
@@ -76,10 +76,10 @@ pub fn difference(a: &Raster, b: &Raster) -> Vec<f64> {
 
 /// Visibility in linear grey, half of it being byte 128.
 #[must_use]
-pub fn gray(plane: &GrayImage) -> Raster {
+pub fn gray(plane: &GrayImage) -> StoredImage {
     let byte = |v: &f32| (v.clamp(0.0, 1.0) * 255.0).round() as u8;
     let rgba = plane.values.iter().flat_map(|v| [byte(v), byte(v), byte(v), 255]);
-    Raster { size: [plane.width, plane.height], rgba: rgba.collect() }
+    StoredImage { size: [plane.width, plane.height], rgba: rgba.collect() }
 }
 
 /// The window of that size in which the sum of `weights` (one per pixel) is largest; the first of
