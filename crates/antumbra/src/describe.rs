@@ -59,9 +59,9 @@ pub struct About {
 ///
 /// # Your own
 /// Everything that the library does with a technique follows from its [`Description`]. The presets
-/// ([`comparison`](Description::comparison), [`filtered`](Description::filtered),
-/// [`triangles`](Description::triangles)) are what most techniques have in common; change the public fields that
-/// differ:
+/// ([`comparison`](Description::comparison), [`stored_depth`](Description::stored_depth),
+/// [`filtered`](Description::filtered), [`triangles`](Description::triangles)) are what most techniques have
+/// in common; change the public fields that differ:
 ///
 /// ```
 /// use antumbra::{
@@ -92,7 +92,6 @@ pub struct About {
 ///             }";
 ///         let nearest = wgpu::FilterMode::Nearest;
 ///         let mut described = Description::comparison(self.about(), wgsl, nearest, Precision::Float32);
-///         described.slots.clear(); // the standard comparison would be `reference_depth`, which is not needed here
 ///         described.settings = vec![("darkness", self.darkness)];
 ///         Ok(described)
 ///     }
@@ -118,9 +117,10 @@ pub struct About {
 ///   [`BiasTerms::receiver_plane`](crate::technique::BiasTerms::receiver_plane) says);
 /// - `ddx`, `ddy`, the change of `uv` from this pixel to the next.
 ///
-/// Functions that composition writes beside it, and that every function may call, read what is set at run time:
-/// `x_NAME() -> f32` for each of [`Description::settings`], `x_NAME(view: u32) -> f32` for each of
-/// [`Description::widths`], and what comes with [`Description::blur`] and with what casters leave ([`Caster`]). If there are [classes](Description::classes) it also defines `x_class`, with
+/// Functions that composition writes beside it, and that every function may call, read what is set at run
+/// time: `x_NAME() -> f32` for each of [`Description::settings`], `x_NAME(view: u32) -> f32` for each of
+/// [`Description::widths`], and what comes with [`Description::blur`] and with what casters leave
+/// ([`Caster`]). If there are [classes](Description::classes) it also defines `x_class`, with
 /// the same parameters. The first line may be `//! needs a b`: shared files, and slots that
 /// [`Description::slots`] fill.
 pub trait Technique: Debug + Send + Sync {

@@ -63,6 +63,9 @@ pub struct Description {
     /// Largest error that ringing and quantisation leave where the shadow test is clear-cut: the
     /// visibility deep behind a full blocker is at most this, in the open at least one minus this.
     pub ringing: f32,
+    /// Whether the visibility never rises with the receiver's depth, up to ringing. It may where a technique
+    /// chooses between several ways to answer by depth.
+    pub monotonic: bool,
     /// Texture fetches of the visibility function for a pixel that its filters do not stretch; an
     /// interpolated one counts once. What a pixel costs on hardware that is bound by them.
     pub fetches: u32,
@@ -93,6 +96,7 @@ impl Description {
             filter_radius_texels: 0.5,
             classes: &[],
             ringing: 0.0,
+            monotonic: true,
             fetches: 1,
             notes: Vec::new(),
         }

@@ -226,6 +226,8 @@ impl Technique for Esm {
             vec![("c", self.steepness()), ("epsilon", self.epsilon), ("offset", self.offset)];
         if self.classifier != Classifier::None {
             described.classes = &FAILED;
+            // Pixels that fail are answered in another way.
+            described.monotonic = !self.filters_four();
             if self.custom == Custom::Four && !self.filters_four() {
                 let note = "no custom filtering: a summed-area table has no texels to clamp one by one";
                 described.notes.push(note.into());

@@ -142,6 +142,8 @@ impl Technique for Lvsm {
             ("reduction", self.reduction),
         ];
         described.ringing = self.leak();
+        // Another interval may have a brighter bound.
+        described.monotonic = self.choose == Choose::Least;
         // Those of a pixel in the last interval.
         described.fetches *= match self.choose {
             Choose::Least => self.intervals.div_ceil(2),

@@ -40,24 +40,15 @@ pub(crate) fn is_dark_within(gpu: &Gpu, technique: &dyn Technique, capacity: Cap
     all_of(receivers.iter().zip(visibility(gpu, &shadows, &receivers)), |_, v| v <= most)
 }
 
-/// Whether it chooses between several ways to answer, by depth: its answers jump where it changes over.
-fn changes_over(gpu: &Gpu, technique: &dyn Technique) -> bool {
-    let classifies = !described(gpu, technique).classes.is_empty();
-    technique.clone_box().parameters().iter().any(|p| {
-        let custom = p.name == "custom" && p.value() != "none" && classifies;
-        custom || (p.name == "choose" && p.value() != "least")
-    })
-}
-
 /// Ripples may rise by their whole height once, up to rounding.
 pub(crate) fn darkens_with_depth(gpu: &Gpu, technique: &dyn Technique) -> Result<(), String> {
     const STEPS: usize = 64;
-    if changes_over(gpu, technique) {
+    let described = described(gpu, technique);
+    if !described.monotonic {
         return Ok(());
     }
     let shadows = shadow_map(gpu, technique, &depth_texture(gpu, SIZE, blocks(3, 3)), SIZE.into());
     // Silhouettes of triangles that are not kept are guesses, which differ with what is in front.
-    let described = described(gpu, technique);
     let centred = |r: Receiver| match described.caster {
         Caster::Triangles(_) => Receiver { uv: ((r.uv * 64.0).floor() + 0.5) / 64.0, ..r },
         _ => r,
