@@ -1,9 +1,9 @@
 //! The command line.
 
 use crate::{
-    completion,
     file_arguments::FileArguments,
     scene_arguments::{SceneArguments, ViewArguments},
+    suggestions,
 };
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
@@ -118,7 +118,7 @@ pub(crate) struct Compare {
     pub(crate) scene: SceneArguments,
     /// Techniques with settings (esm.c=60,kernel=7), or all, all-comparison, all-basis, all-geometry
     #[arg(short, long, alias = "technique", num_args = 1.., default_value = "all", value_name = "TECHNIQUE",
-        value_parser = completion::TECHNIQUES, hide_possible_values = true)]
+        value_parser = suggestions::TECHNIQUES, hide_possible_values = true)]
     pub(crate) techniques: Vec<String>,
     /// Folder of the report; an earlier report there is replaced
     #[arg(short, long, default_value = "report", value_name = "FOLDER")]
@@ -140,7 +140,7 @@ pub(crate) struct Render {
     pub(crate) scene: SceneArguments,
     /// A technique with settings, or `truth` for ray-traced hard shadows
     #[arg(short, long, alias = "techniques", default_value = "esm", value_name = "TECHNIQUE",
-        value_parser = completion::TECHNIQUE_OR_TRUTH, hide_possible_values = true)]
+        value_parser = suggestions::TECHNIQUE_OR_TRUTH, hide_possible_values = true)]
     pub(crate) technique: String,
     /// What to write
     #[arg(long, value_enum, default_value_t = Show::Picture)]
@@ -171,7 +171,7 @@ pub(crate) struct Flicker {
     /// Techniques with settings, or all, all-comparison, all-basis, all-geometry; ratios need hard
     #[arg(short, long, alias = "technique", num_args = 1..,
         default_values = ["hard", "pcf", "vsm", "esm", "csm", "spsm"], value_name = "TECHNIQUE",
-        value_parser = completion::TECHNIQUES, hide_possible_values = true)]
+        value_parser = suggestions::TECHNIQUES, hide_possible_values = true)]
     pub(crate) techniques: Vec<String>,
     /// What moves
     #[arg(long, value_enum, default_value_t = Motion::Both)]
@@ -213,7 +213,7 @@ pub(crate) struct Bench {
     pub(crate) scene: SceneArguments,
     /// Techniques with settings, or all, all-comparison, all-basis, all-geometry
     #[arg(short, long, alias = "technique", num_args = 1.., default_value = "all", value_name = "TECHNIQUE",
-        value_parser = completion::TECHNIQUES, hide_possible_values = true)]
+        value_parser = suggestions::TECHNIQUES, hide_possible_values = true)]
     pub(crate) techniques: Vec<String>,
     /// Frames that are timed, per technique
     #[arg(long, default_value_t = 15)]
@@ -227,11 +227,11 @@ pub(crate) struct Bench {
 #[command(mut_arg("resolution", |arg| arg.default_value("640x480")), mut_arg("size", |arg| arg.default_value("1024")))]
 pub(crate) struct Bias {
     /// .glb, .gltf or .obj files, or names of built-in scenes
-    #[arg(required = true, value_name = "SCENE", value_parser = completion::SCENES, hide_possible_values = true)]
+    #[arg(required = true, value_name = "SCENE", value_parser = suggestions::SCENES, hide_possible_values = true)]
     pub(crate) scenes: Vec<String>,
     /// Techniques with settings, or all, all-comparison, all-basis, all-geometry
     #[arg(short, long, alias = "technique", num_args = 1.., default_values = ["hard", "pcf"], value_name = "TECHNIQUE",
-        value_parser = completion::TECHNIQUES, hide_possible_values = true)]
+        value_parser = suggestions::TECHNIQUES, hide_possible_values = true)]
     pub(crate) techniques: Vec<String>,
     /// The biases that each of them is given
     #[arg(long, num_args = 1.., default_values = SETTINGS, value_name = "BIAS")]
@@ -267,7 +267,7 @@ pub(crate) struct Kernels {
     pub(crate) kernels: Vec<u32>,
     /// Techniques with settings
     #[arg(short, long, alias = "technique", num_args = 1.., default_values = ["pcf", "pcf.taps=bilinear", "esm"], value_name = "TECHNIQUE",
-        value_parser = completion::TECHNIQUES, hide_possible_values = true)]
+        value_parser = suggestions::TECHNIQUES, hide_possible_values = true)]
     pub(crate) techniques: Vec<String>,
     /// Frames that are timed, per technique
     #[arg(long, default_value_t = 5)]
@@ -283,7 +283,7 @@ pub(crate) struct Kernels {
 #[derive(Debug, Args)]
 pub(crate) struct Curve {
     /// Techniques with settings, or all, all-comparison, all-basis; a / begins a new panel
-    #[arg(required = true, value_name = "TECHNIQUE", value_parser = completion::TECHNIQUES,
+    #[arg(required = true, value_name = "TECHNIQUE", value_parser = suggestions::TECHNIQUES,
         hide_possible_values = true)]
     pub(crate) techniques: Vec<String>,
     /// From and to how far the receiver lies behind the caster (d − z), as shares of the light's depth
@@ -310,7 +310,7 @@ pub(crate) struct Maps {
     pub(crate) scene: SceneArguments,
     /// A technique with settings
     #[arg(short, long, alias = "techniques", default_value = "csm", value_name = "TECHNIQUE",
-        value_parser = completion::TECHNIQUES, hide_possible_values = true)]
+        value_parser = suggestions::TECHNIQUES, hide_possible_values = true)]
     pub(crate) technique: String,
     /// Mip level, 0 the finest
     #[arg(long, default_value_t = 0)]
@@ -326,7 +326,7 @@ pub(crate) struct Maps {
 #[derive(Debug, Args)]
 pub(crate) struct Reproduce {
     /// A figure or table (csm/figure-9), a source (csm), or all
-    #[arg(required_unless_present = "list", value_name = "TARGET", value_parser = completion::TARGETS,
+    #[arg(required_unless_present = "list", value_name = "TARGET", value_parser = suggestions::TARGETS,
         hide_possible_values = true)]
     pub(crate) targets: Vec<String>,
     /// Show every target with the time it takes
@@ -361,7 +361,7 @@ pub(crate) enum SceneAction {
 #[derive(Debug, Args)]
 pub(crate) struct Export {
     /// The name of a built-in scene, or a .glb, .gltf or .obj file
-    #[arg(value_parser = completion::SCENES, hide_possible_values = true)]
+    #[arg(value_parser = suggestions::SCENES, hide_possible_values = true)]
     pub(crate) scene: String,
     /// The .glb file; an earlier one is replaced
     pub(crate) output: PathBuf,
@@ -375,7 +375,7 @@ pub(crate) struct Export {
 #[derive(Debug, Args)]
 pub(crate) struct Techniques {
     /// Names of techniques; all if none is given
-    #[arg(value_name = "TECHNIQUE", value_parser = completion::TECHNIQUES, hide_possible_values = true)]
+    #[arg(value_name = "TECHNIQUE", value_parser = suggestions::TECHNIQUES, hide_possible_values = true)]
     pub(crate) names: Vec<String>,
     #[command(flatten)]
     pub(crate) list: List,

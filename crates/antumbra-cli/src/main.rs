@@ -9,6 +9,7 @@ mod output;
 mod progress;
 mod scene;
 mod scene_arguments;
+mod suggestions;
 mod techniques;
 #[cfg(test)]
 mod tests;

@@ -1,6 +1,11 @@
-//! What becomes of an error.
+//! What is said on standard error.
 
-use std::io;
+use std::io::{self, Write};
+
+/// A line on standard error; one that nobody reads is no reason to stop.
+pub(crate) fn note(text: &str) {
+    let _ = writeln!(io::stderr(), "note: {text}");
+}
 
 /// Whether an error is that of a pipe whose reader has gone.
 pub(crate) fn is_closed(error: &anyhow::Error) -> bool {

@@ -3,6 +3,7 @@
 use crate::{
     file_arguments::FileArguments,
     names,
+    output::note,
     scene_arguments::{Arrangement, SceneArguments, ViewArguments},
     views,
 };
@@ -11,7 +12,7 @@ use antumbra_lab::{default_view, shot::Shot};
 use antumbra_scene::{Camera, Geometry, Light, Projection, Scene, import, procedural};
 use anyhow::{Context, Result, anyhow, bail};
 use glam::DVec3;
-use std::{io::Write, path::Path, sync::Arc};
+use std::{path::Path, sync::Arc};
 
 /// Checks the numbers, which is quick.
 pub(crate) fn check(arguments: &SceneArguments) -> Result<()> {
@@ -125,11 +126,6 @@ fn arrange(scene: &mut Scene, arguments: &Arrangement) -> Result<()> {
         note("--single-sided changes nothing: no material of the scene is single-sided");
     }
     Ok(())
-}
-
-/// A line on standard error; one that nobody reads is no reason to stop.
-pub(crate) fn note(text: &str) {
-    let _ = writeln!(std::io::stderr(), "note: {text}");
 }
 
 /// A built-in scene or a file, not yet validated.

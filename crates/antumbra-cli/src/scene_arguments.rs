@@ -1,6 +1,6 @@
 //! The scene and how it is seen: the same options in every command that draws.
 
-use crate::{completion, file_arguments::FileArguments, views::Axis};
+use crate::{file_arguments::FileArguments, suggestions, views::Axis};
 use clap::Args;
 
 /// Which parts of a file are there, and how they stand.
@@ -23,7 +23,7 @@ pub(crate) struct Arrangement {
 #[derive(Debug, Clone, Args)]
 pub(crate) struct SceneArguments {
     /// A .glb, .gltf or .obj file, or the name of a built-in scene (see `antumbra scenes`)
-    #[arg(default_value = "fence", value_parser = completion::SCENES, hide_possible_values = true)]
+    #[arg(default_value = "fence", value_parser = suggestions::SCENES, hide_possible_values = true)]
     pub(crate) scene: String,
     #[command(flatten)]
     pub(crate) view: ViewArguments,

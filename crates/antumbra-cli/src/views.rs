@@ -1,6 +1,6 @@
 //! Cameras, lights and axes from what the command line says of them.
 
-use crate::scene::note;
+use crate::output::note;
 use antumbra_scene::{Camera, Light, Numbered, Projection, Scene, Up};
 use anyhow::{Context, Result, bail};
 use clap::ValueEnum;

@@ -1,13 +1,8 @@
 //! Kinds of pixels that a technique tells apart, counted and coloured
 //! [Annen et al. 2008, figure 10 and table 3].
 
-use crate::{
-    image::{GrayImage, ImageError, Rgba8Image},
-    prepared::Prepared,
-    session::Session,
-};
+use crate::image::{GrayImage, ImageError, Rgba8Image};
 use antumbra::technique::Class;
-use anyhow::Result;
 use serde::{Deserialize, Serialize};
 
 /// How many pixels a technique takes for one of its kinds.
@@ -31,14 +26,12 @@ pub struct Classes {
 }
 
 impl Classes {
-    /// The classes of a technique whose maps are drawn and that answers `visibility`; `None` if it has none.
+    /// What an answer `visibility` and the pixels' `numbers`, as [`shares`] takes them, show of `classes`.
     ///
     /// # Errors
-    /// If the device is lost.
-    pub fn read(session: &Session<'_>, prepared: &Prepared, visibility: &GrayImage) -> Result<Option<Self>> {
-        let Some(numbers) = session.classes(prepared)? else { return Ok(None) };
-        let known = prepared.shadows.description().classes;
-        Ok(Some(Self { picture: picture(visibility, &numbers, known)?, shares: shares(&numbers, known) }))
+    /// As [`picture`].
+    pub fn new(visibility: &GrayImage, numbers: &GrayImage, classes: &[Class]) -> Result<Self, ImageError> {
+        Ok(Self { picture: picture(visibility, numbers, classes)?, shares: shares(numbers, classes) })
     }
 }
 

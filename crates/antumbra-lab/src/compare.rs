@@ -2,7 +2,7 @@
 
 use crate::{
     cascades,
-    classes::{ClassShare, Classes},
+    classes::ClassShare,
     facts,
     gpu::Gpu,
     image::error_heat_map,
@@ -141,7 +141,7 @@ fn render(
     let error = |truth: &TruthImage| -> Result<Vec<u8>> {
         Ok(error_heat_map(&answer, &truth.image, &truth.shadowable)?.to_png()?)
     };
-    let classes = Classes::read(session, prepared, &answer)?;
+    let classes = session.classes(prepared, &answer)?;
     let tinted = classes.as_ref().map(|classes| classes.picture.to_png()).transpose()?;
     let images = TechniqueImages {
         classes: tinted.map(|bytes| save("classes.png", bytes)),

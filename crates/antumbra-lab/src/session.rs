@@ -1,6 +1,7 @@
 //! A shot on the GPU with techniques that are ready: draws, moves and times them.
 
 use crate::{
+    classes::Classes,
     gpu::Gpu,
     image::{GrayImage, Rgba8Image},
     prepared::Prepared,
@@ -224,13 +225,15 @@ impl<'g> Session<'g> {
         self.asked(&prepared.lookup, prepared)
     }
 
-    /// Class of every pixel, as [`shares`](crate::classes::shares) takes them, if the technique has any. Its maps
-    /// are drawn; the visibility that [`picture`](Self::picture) takes is lost.
+    /// What a technique tells apart whose maps are drawn and that answers `visibility`, if it has classes. The
+    /// visibility that [`picture`](Self::picture) takes is lost.
     ///
     /// # Errors
     /// If the device is lost.
-    pub fn classes(&self, prepared: &Prepared) -> Result<Option<GrayImage>> {
-        prepared.classes.as_ref().map(|lookup| self.asked(lookup, prepared)).transpose()
+    pub fn classes(&self, prepared: &Prepared, visibility: &GrayImage) -> Result<Option<Classes>> {
+        let Some(lookup) = &prepared.classes else { return Ok(None) };
+        let numbers = self.asked(lookup, prepared)?;
+        Ok(Some(Classes::new(visibility, &numbers, prepared.shadows.description().classes)?))
     }
 
     fn asked(&self, lookup: &Lookup, prepared: &Prepared) -> Result<GrayImage> {

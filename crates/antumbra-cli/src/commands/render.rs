@@ -7,7 +7,7 @@ use crate::{
 use antumbra::{Capabilities, Technique};
 use antumbra_lab::{
     cascades,
-    classes::{ClassShare, Classes},
+    classes::ClassShare,
     files,
     gpu::Gpu,
     image::GrayImage,
@@ -89,7 +89,7 @@ fn shown(
         (_, Show::Picture) => session.picture_of(visibility)?.to_png()?,
         (_, Show::Classes) => {
             let prepared = first(session)?;
-            let classes = Classes::read(session, prepared, visibility)?;
+            let classes = session.classes(prepared, visibility)?;
             let classes = classes.with_context(|| format!("{} has no classes", arguments.technique))?;
             for ClassShare { name, share, .. } in classes.shares {
                 lines.push(format!("{name}: {:.2} % of the pixels that see geometry", 100.0 * share));

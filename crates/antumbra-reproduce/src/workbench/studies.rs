@@ -7,7 +7,6 @@ use crate::{
 };
 use antumbra::technique::Bias;
 use antumbra_lab::{
-    classes::Classes,
     facts, flicker,
     maps::{self, Sheet},
     motion::Path,
@@ -129,7 +128,7 @@ fn look(session: &Session<'_>, prepared: &Prepared, spec: &str) -> Result<Look> 
     let shadows = &prepared.shadows;
     let visibility = session.draw(prepared)?;
     let picture = session.picture()?;
-    let classes = Classes::read(session, prepared, &visibility)?;
+    let classes = session.classes(prepared, &visibility)?;
     let (tinted, classes) = classes.map_or((None, Vec::new()), |c| (Some(c.picture.into()), c.shares));
     Ok(Look {
         spec: spec.into(),
