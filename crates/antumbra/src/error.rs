@@ -230,6 +230,14 @@ pub enum CasterError {
         /// Name of the technique.
         technique: String,
     },
+    /// The map reads depth that the caller renders.
+    #[error(
+        "this shadow map of {technique} reads depth that its caller renders; call encode_filter instead of encode"
+    )]
+    Brought {
+        /// Name of the technique.
+        technique: String,
+    },
     /// The closure drew a [`CasterMesh`](crate::CasterMesh).
     #[error(
         "{technique} keeps depth, and the closure of encode drew a CasterMesh, which leaves no shadow there; draw casters with pipelines of your own that write depth"

@@ -43,7 +43,7 @@
 //! ```
 //!
 //! The examples are whole programs: `quick_start` and `hello`, `own_shader` (cascades, a larger shader, two
-//! techniques side by side), `own_depth` (a depth pass that the renderer already has), `triangles`, `cutouts`, `skinning`,
+//! techniques side by side), `own_depth` (a depth pass that the renderer already has), `reversed_depth`, `triangles`, `cutouts`, `skinning`,
 //! `compute` (fog) and `browser` (a page).
 //!
 //! # Versions
@@ -193,7 +193,8 @@ pub use filter::{Filter, Sampling, Values};
 pub use kernel::{Kernel, Weights};
 pub use light::{Bounds, CameraFit, Cascades, Fit, Light, Size, View};
 pub use map::{
-    DEPTH_FORMAT, Lifetime, Memory, MemoryItem, NoProbe, Options, Pipelines, Probe, ShadowMap, TooManyViews,
+    DEPTH_FORMAT, Depth, Lifetime, Memory, MemoryItem, NoProbe, Options, Pipelines, PrepareError, Probe,
+    ShadowMap,
 };
 pub use parameter::{Choice, Field, Parameter};
 pub use precision::Precision;

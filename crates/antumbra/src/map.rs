@@ -12,6 +12,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use wgpu::TextureFormat;
 
 mod answer;
+mod brought;
 mod build;
 mod check;
 mod draw;
@@ -25,10 +26,11 @@ mod textures;
 mod uniforms;
 
 pub(crate) use answer::ask_now;
+pub use brought::Depth;
 use draw::Draw;
 pub(crate) use draw::compute_pass;
 pub use memory::{Lifetime, Memory, MemoryItem};
-pub use options::{NoProbe, Options, Probe, TooManyViews};
+pub use options::{NoProbe, Options, PrepareError, Probe};
 pub use pipelines::Pipelines;
 pub(crate) use textures::{Textures, written};
 use uniforms::Uniforms;
@@ -70,11 +72,15 @@ impl ShadowMap {
     /// or two lights in one submission take two maps.
     ///
     /// # Errors
-    /// [`TooManyViews`], and then the previous views stay.
-    pub fn prepare(&mut self, queue: &wgpu::Queue, views: &[View]) -> Result<(), TooManyViews> {
-        let room = self.options.views as usize;
-        if views.len() > room {
-            return Err(TooManyViews { given: views.len(), room });
+    /// [`PrepareError`], and then the previous views stay.
+    pub fn prepare(&mut self, queue: &wgpu::Queue, views: &[View]) -> Result<(), PrepareError> {
+        let max = self.options.views as usize;
+        if views.len() > max {
+            return Err(PrepareError::TooManyViews { given: views.len(), max });
+        }
+        let reversed = self.textures.is_reversed();
+        if let Some(view) = brought::contrary(views, reversed) {
+            return Err(PrepareError::Depth { view, reversed: !reversed });
         }
         self.views.clear();
         self.views.extend_from_slice(views);

@@ -20,6 +20,7 @@ example!(quick_start, "../examples/quick_start.rs");
 example!(hello, "../examples/hello.rs");
 example!(own_shader, "../examples/own_shader.rs");
 example!(own_depth, "../examples/own_depth.rs");
+example!(reversed_depth, "../examples/reversed_depth.rs");
 example!(triangles, "../examples/triangles.rs");
 example!(cutouts, "../examples/cutouts.rs");
 example!(compute, "../examples/compute.rs");
@@ -106,12 +107,21 @@ fn own_shader(gpu: &Gpu) {
 }
 
 fn own_depth(gpu: &Gpu) {
-    let picture = own_depth::run(&gpu.device, &gpu.queue).unwrap();
+    lamp(&own_depth::run(&gpu.device, &gpu.queue).unwrap());
+}
+
+/// The same scene through another projection.
+fn reversed_depth(gpu: &Gpu) {
+    lamp(&reversed_depth::run(&gpu.device, &gpu.queue).unwrap());
+}
+
+/// Lit and shadowed ground around a post and a box under a lamp.
+fn lamp(picture: &[u8]) {
     let lamp = Vec3::new(3.0, 5.0, 1.0);
     let shadow = |p: Vec3| on_ground(p, lamp - p);
     let lit = [Vec3::new(-2.0, 0.0, 2.0), Vec3::new(0.0, 0.0, 1.5)];
     check(
-        &picture,
+        picture,
         own_depth::camera(),
         &lit,
         &[shadow(Vec3::new(0.0, 1.2, 0.0)), shadow(Vec3::new(0.9, 0.7, 1.9))],
@@ -178,6 +188,7 @@ fn main() {
     trials.add("hello", hello);
     trials.add("own_shader", own_shader);
     trials.add("own_depth", own_depth);
+    trials.add("reversed_depth", reversed_depth);
     trials.add("triangles", triangles);
     trials.add("cutouts", cutouts);
     trials.add("compute", compute);

@@ -210,6 +210,14 @@ impl Description {
         self.bindings.contains(&Binding::Depth)
     }
 
+    /// Receivers compare depth that a renderer brings, in steps of `quantum`, whose ends may be reversed.
+    pub(crate) fn bring(&mut self, quantum: f32, reversed: bool) {
+        if self.depth_space == DepthSpace::Raster {
+            self.depth_quantum = self.depth_quantum.max(quantum);
+            self.slots.extend(reversed.then_some("stored_reversed"));
+        }
+    }
+
     /// Whether its parts agree.
     pub(crate) fn check(&self) -> Result<(), DescriptionError> {
         if self.sample_offsets.is_empty() {

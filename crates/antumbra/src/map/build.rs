@@ -1,7 +1,7 @@
 //! Makes a shadow map, or says why there can be none.
 
 use super::{
-    Capabilities, Options, Pipelines, ShadowMap, Textures, Uniforms,
+    Capabilities, Depth, Options, Pipelines, ShadowMap, Textures, Uniforms,
     answer::{self, Refusal},
     check,
     draw::Draw,
@@ -44,24 +44,23 @@ impl ShadowMap {
         map?.unless(refusal.await)
     }
 
-    /// Reads depth that the caller renders herself: a 2-D texture of any depth format (beside a
-    /// stencil, the depth alone is read), one layer per view (and caster pass, in the order of
-    /// [`caster_views`](Self::caster_views)), with usage `TEXTURE_BINDING`, z in
-    /// `[0,1]` from near to far as
-    /// [`View::clip_from_world`](crate::View::clip_from_world) gives it. `options.size` and `options.views` are taken from the
-    /// texture. Use [`encode_filter`](Self::encode_filter) instead of `encode`.
+    /// Reads depth that the caller renders herself: a texture, or some of its layers and reversed depth
+    /// ([`Depth`]). There is one layer per view (and caster pass, in the order of
+    /// [`caster_views`](Self::caster_views)), and z is what
+    /// [`View::clip_from_world`](crate::View::clip_from_world) gives. `options.size` and `options.views` are taken from
+    /// the texture. Use [`encode_filter`](Self::encode_filter) instead of `encode`.
     ///
     /// # Errors
     /// [`Unsupported::Depth`] if the texture cannot be read, else as [`new`](Self::new).
-    pub fn from_depth(
+    pub fn from_depth<'a>(
         device: &wgpu::Device,
         technique: &dyn Technique,
-        depth: &wgpu::Texture,
+        depth: impl Into<Depth<'a>>,
         options: impl Into<Options>,
     ) -> Result<Self, Unsupported> {
-        let options = options.into();
+        let (depth, options) = (depth.into(), options.into());
         let (map, refusal) =
-            answer::ask_now(device, || Self::build(device, technique, &options, Some(depth)));
+            answer::ask_now(device, || Self::build(device, technique, &options, Some(&depth)));
         map?.unless(refusal)
     }
 
@@ -83,17 +82,23 @@ impl ShadowMap {
         device: &wgpu::Device,
         technique: &dyn Technique,
         options: &Options,
-        depth: Option<&wgpu::Texture>,
+        depth: Option<&Depth<'_>>,
     ) -> Result<Self, Unsupported> {
         technique::check(technique)?;
         options.bias.check()?;
         let capabilities = Capabilities::of(device);
-        let composition = Composition::of(technique, &capabilities, options)?;
-        let description = &composition.description;
+        let mut description = technique.describe(&capabilities)?;
         let options = &match depth {
-            Some(depth) => check::depth(depth, description.sample_offsets.len() as u32, options)?,
+            Some(depth) => {
+                let (size, views) = depth.check(description.sample_offsets.len() as u32)?;
+                description.bring(depth.quantum(), depth.is_reversed());
+                Options { size, views, ..options.clone() }
+            }
             None => options.clone(),
         };
+        let asks = options.cutouts && description.caster.keeps_ids();
+        let composition = Composition::new(description, asks)?;
+        let description = &composition.description;
         check::device(device, description, options)?;
         let pipelines = options.pipelines.clone().unwrap_or_else(|| Pipelines::new(device));
         check::caster(description, depth)?;

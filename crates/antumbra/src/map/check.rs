@@ -1,12 +1,11 @@
 //! What must hold before anything is created, so that wgpu has nothing to complain about.
 
-use super::{Options, uniforms};
+use super::{Depth, Options, uniforms};
 use crate::{
     describe::{Caster, Description},
     error::Unsupported,
     light::Size,
 };
-use wgpu::TextureUsages;
 
 /// GL only compares depth textures: nothing could be converted.
 fn backend(backend: wgpu::Backend) -> Result<(), Unsupported> {
@@ -51,37 +50,11 @@ pub(super) fn device(
 }
 
 /// Whether depth is all that the casters leave, if that is what the caller has.
-pub(super) fn caster(description: &Description, depth: Option<&wgpu::Texture>) -> Result<(), Unsupported> {
+pub(super) fn caster(description: &Description, depth: Option<&Depth<'_>>) -> Result<(), Unsupported> {
     match (description.caster, depth) {
         (Caster::Depth, _) | (_, None) => Ok(()),
         (_, Some(_)) => Err(Unsupported::Triangles { technique: description.about.name.into() }),
     }
-}
-
-/// Whether the passes can read a caller's depth, which has that many layers for each view; options with its
-/// size and its views.
-pub(super) fn depth(depth: &wgpu::Texture, casts: u32, options: &Options) -> Result<Options, Unsupported> {
-    let wrong =
-        |what, found: String, needed: &str| Err(Unsupported::Depth { what, found, needed: needed.into() });
-    let format = depth.format();
-    if !format.has_depth_aspect() {
-        return wrong("format", format!("{format:?}"), "a depth format");
-    }
-    if !depth.usage().contains(TextureUsages::TEXTURE_BINDING) {
-        return wrong("usage", format!("{:?}", depth.usage()), "TEXTURE_BINDING");
-    }
-    if depth.dimension() != wgpu::TextureDimension::D2 {
-        return wrong("dimension", format!("{:?}", depth.dimension()), "2-D, one layer per view");
-    }
-    if depth.sample_count() != 1 {
-        return wrong("samples", depth.sample_count().to_string(), "1");
-    }
-    let layers = depth.depth_or_array_layers();
-    if !layers.is_multiple_of(casts) {
-        return wrong("layers", layers.to_string(), &format!("a multiple of {casts}, one per caster pass"));
-    }
-    let size = Size { width: depth.width(), height: depth.height() };
-    Ok(Options { size, views: layers / casts, ..options.clone() })
 }
 
 #[cfg(test)]

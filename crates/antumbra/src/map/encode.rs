@@ -22,7 +22,8 @@ impl ShadowMap {
     ///
     /// # Errors
     /// [`CasterError`] if what was drawn is not what the technique keeps. All passes are encoded
-    /// nevertheless, and nothing casts a shadow.
+    /// nevertheless, and nothing casts a shadow. [`CasterError::Brought`] if the map reads the caller's depth; nothing
+    /// is encoded then.
     pub fn encode(
         &self,
         encoder: &mut wgpu::CommandEncoder,
@@ -41,6 +42,9 @@ impl ShadowMap {
         probe: &mut dyn Probe,
         mut draw: impl FnMut(&mut CasterPass<'_>),
     ) -> Result<(), CasterError> {
+        if self.textures.is_brought() {
+            return Err(CasterError::Brought { technique: self.description().about.name.into() });
+        }
         let mut drawn = Drawn::default();
         let keeps_ids = self.description().caster.keeps_ids();
         let mut draw = |pass: &mut CasterPass<'_>| {

@@ -79,12 +79,28 @@ impl Probe for NoProbe {
     }
 }
 
-/// More views than the map was made for.
+/// Why a shadow map does not take views.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error("{given} views for a shadow map that was made for {room}; see Options::views")]
-pub struct TooManyViews {
-    /// Views given.
-    pub given: usize,
-    /// Views that there is room for.
-    pub room: usize,
+#[non_exhaustive]
+pub enum PrepareError {
+    /// There are more than the map was made for.
+    #[error("{given} views for a shadow map that was made for {max}; see Options::views")]
+    TooManyViews {
+        /// Views given.
+        given: usize,
+        /// Views that the map was made for.
+        max: usize,
+    },
+    /// Depth runs the other way than in the map.
+    #[error(
+        "views[{view}] has depth that {} with the distance, and the map's {}; a map of reversed depth is made by from_depth with Depth::reversed",
+        if *reversed { "falls" } else { "grows" },
+        if *reversed { "grows" } else { "falls" }
+    )]
+    Depth {
+        /// Index of the view.
+        view: usize,
+        /// Whether the view's depth is reversed.
+        reversed: bool,
+    },
 }

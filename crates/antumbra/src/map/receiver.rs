@@ -26,8 +26,10 @@ pub(super) fn group(
     };
     let filterable = textures.maps().iter().all(|m| capabilities.filters(m.texture.format()));
     let bindings = &description.bindings;
-    let samplers: Vec<wgpu::Sampler> =
-        bindings.iter().map(|binding| textures::sampler(device, *binding, filterable)).collect();
+    let samplers: Vec<wgpu::Sampler> = bindings
+        .iter()
+        .map(|binding| textures::sampler(device, *binding, filterable, textures.is_reversed()))
+        .collect();
     let mut layout = vec![uniforms::layout_entry(0)];
     let mut group = vec![wgpu::BindGroupEntry { binding: 0, resource: uniforms.receiver() }];
     for (i, binding) in bindings.iter().enumerate() {

@@ -1,7 +1,7 @@
 //! The textures of a shadow map and the views of their layers and levels.
 
 use super::{
-    DEPTH_FORMAT, Options,
+    DEPTH_FORMAT, Depth, Options, brought,
     memory::{Lifetime, Memory, MemoryItem},
     uniforms::Uniforms,
 };
@@ -11,6 +11,7 @@ use crate::{
     light::Size,
     pass::{self, Place, Slot, Step},
 };
+use std::ops::Range;
 use wgpu::{
     TextureAspect, TextureFormat, TextureUsages, TextureView, TextureViewDescriptor, TextureViewDimension,
 };
@@ -36,6 +37,10 @@ impl Kept {
 #[derive(Debug)]
 pub(crate) struct Textures {
     casters: wgpu::Texture,
+    /// Layers of it that are the map's.
+    caster_layers: Range<u32>,
+    /// Whether its depth falls with the distance.
+    reversed: bool,
     casters_array: TextureView,
     /// Layers of the casters' depth, which views share unless there is one for each.
     caster_targets: Vec<TextureView>,
@@ -53,22 +58,23 @@ impl Textures {
         capabilities: &Capabilities,
         description: &Description,
         options: &Options,
-        depth: Option<&wgpu::Texture>,
+        depth: Option<&Depth<'_>>,
     ) -> Self {
         let Description { maps, sample_offsets, .. } = description;
         let (compares, casts) = (description.reads_depth(), sample_offsets.len() as u32);
         let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING;
         let layers = if compares { options.views } else { casts.min(4) };
-        let casters = depth.cloned().unwrap_or_else(|| {
+        let casters = depth.map(|depth| depth.texture().clone()).unwrap_or_else(|| {
             texture(device, "casters' depth", options.size, layers, 1, DEPTH_FORMAT, usage)
         });
+        let caster_layers = depth.map_or(0..layers, Depth::layer_range);
+        let reversed = depth.is_some_and(Depth::is_reversed);
         let casters_lifetime = match (depth, compares) {
             (Some(_), _) => Lifetime::Borrowed,
             (None, true) => Lifetime::Kept,
             (None, false) => Lifetime::Transient,
         };
-        let layers = casters.depth_or_array_layers();
-        let caster_targets = (0..layers).map(|layer| one(&casters, layer, 0)).collect();
+        let caster_targets = caster_layers.clone().map(|layer| one(&casters, layer, 0)).collect();
         let keep = |map: &Map| {
             let levels = pass::levels(map, options.size);
             let layers = map.layers * options.views;
@@ -88,7 +94,17 @@ impl Textures {
         let maps: Vec<Kept> = maps.iter().map(keep).collect();
         let layers = maps.first().map_or(0, |map| map.layers * options.views);
         let map_targets = (0..layers).map(|layer| one(&maps[0].texture, layer, 0)).collect();
-        Self { casters_array: all(&casters), casters, caster_targets, casters_lifetime, map_targets, maps }
+        let casters_array = some(&casters, caster_layers.clone(), None);
+        Self {
+            casters,
+            caster_layers,
+            reversed,
+            casters_array,
+            caster_targets,
+            casters_lifetime,
+            maps,
+            map_targets,
+        }
     }
 
     /// A layer of the first map of a view.
@@ -108,6 +124,16 @@ impl Textures {
         &self.casters_array
     }
 
+    /// Whether the casters' depth falls with the distance.
+    pub(super) fn is_reversed(&self) -> bool {
+        self.reversed
+    }
+
+    /// Whether the casters' depth is the caller's.
+    pub(super) fn is_brought(&self) -> bool {
+        self.casters_lifetime == Lifetime::Borrowed
+    }
+
     pub(super) fn maps(&self) -> &[Kept] {
         &self.maps
     }
@@ -115,24 +141,15 @@ impl Textures {
     /// What a step reads, for one view: layers of one level as an array, or the casters' depth.
     pub(super) fn source(&self, step: &Step, view: u32) -> TextureView {
         let Place { slot, layer, mip } = step.source;
-        let array = |texture: &wgpu::Texture, base_array_layer, layers| {
-            texture.create_view(&TextureViewDescriptor {
-                dimension: Some(TextureViewDimension::D2Array),
-                base_array_layer,
-                array_layer_count: Some(layers),
-                base_mip_level: mip,
-                mip_level_count: Some(1),
-                aspect: aspect(texture),
-                ..Default::default()
-            })
-        };
+        let array = |texture, first, layers| some(texture, first..first + layers, Some(mip));
+        let Range { start, end } = self.caster_layers;
         let layers = step.source_layers;
         match slot {
             // Views share one layer unless receivers compare it or it is the caller's.
-            Slot::Casters => array(&self.casters, view.min(self.casters.depth_or_array_layers() - 1), 1),
+            Slot::Casters => array(&self.casters, (start + view).min(end - 1), 1),
             Slot::Casts { first, of, .. } => {
                 let own = self.casters_lifetime == Lifetime::Borrowed;
-                array(&self.casters, if own { view * of + first } else { 0 }, layers)
+                array(&self.casters, start + if own { view * of + first } else { 0 }, layers)
             }
             Slot::Map(i) => array(&self.maps[i].texture, view * self.maps[i].layers + layer, layers),
             Slot::Scratch(i) => array(self.maps[i].scratch(), layer, layers),
@@ -196,8 +213,17 @@ fn one(texture: &wgpu::Texture, layer: u32, mip: u32) -> TextureView {
 }
 
 fn all(texture: &wgpu::Texture) -> TextureView {
+    some(texture, 0..texture.depth_or_array_layers(), None)
+}
+
+/// Layers as an array, of one level or of all.
+fn some(texture: &wgpu::Texture, layers: Range<u32>, mip: Option<u32>) -> TextureView {
     texture.create_view(&TextureViewDescriptor {
         dimension: Some(TextureViewDimension::D2Array),
+        base_array_layer: layers.start,
+        array_layer_count: Some(layers.end - layers.start),
+        base_mip_level: mip.unwrap_or(0),
+        mip_level_count: mip.map(|_| 1),
         aspect: aspect(texture),
         ..Default::default()
     })
@@ -221,9 +247,14 @@ pub(crate) fn written(view: &TextureView) -> wgpu::RenderPassColorAttachment<'_>
 }
 
 /// The sampler of a binding (an unused one for textures).
-pub(super) fn sampler(device: &wgpu::Device, binding: Binding, filterable: bool) -> wgpu::Sampler {
+pub(super) fn sampler(
+    device: &wgpu::Device,
+    binding: Binding,
+    filterable: bool,
+    reversed: bool,
+) -> wgpu::Sampler {
     let (filter, compare) = match binding {
-        Binding::Compare(filter) => (filter, Some(wgpu::CompareFunction::LessEqual)),
+        Binding::Compare(filter) => (filter, Some(brought::comparison(reversed))),
         _ if filterable => (wgpu::FilterMode::Linear, None),
         _ => (wgpu::FilterMode::Nearest, None),
     };

@@ -38,6 +38,8 @@ pub(super) const FILES: &[(&str, &str)] = &[
     ("spin_fixed", include_str!("spin/fixed.wgsl")),
     ("spin_noise", include_str!("spin/noise.wgsl")),
     ("spline", include_str!("spline.wgsl")),
+    ("stored", include_str!("stored.wgsl")),
+    ("stored_reversed", include_str!("stored/reversed.wgsl")),
     ("taps_bilinear", include_str!("taps/bilinear.wgsl")),
     ("taps_gather", include_str!("taps/gather.wgsl")),
     ("taps_merged", include_str!("taps/merged.wgsl")),

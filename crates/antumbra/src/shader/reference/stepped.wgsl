@@ -1,3 +1,5 @@
+//! needs stored
+
 /// Steps of the stored depth: 2^bits − 1.
 const reference_steps: u32 = 65535;
 
@@ -5,5 +7,5 @@ const reference_steps: u32 = 65535;
 /// same as (ceil(n·d) − ½)/n ≤ z, so the exact depth is compared with that instead.
 fn reference_depth(depth: f32, gain: f32) -> f32 {
     let n = f32(reference_steps);
-    return (ceil((depth + min(gain, 0.0)) * n) - 0.5) / n;
+    return stored_depth((ceil((depth + min(gain, 0.0)) * n) - 0.5) / n);
 }
