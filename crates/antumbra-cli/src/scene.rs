@@ -10,6 +10,7 @@ use crate::{
 use antumbra::technique::Bias;
 use antumbra_lab::{default_view, shot::Shot};
 use antumbra_scene::{Camera, Geometry, Light, Projection, Scene, import, procedural};
+use antumbra_truth::SharedTree;
 use anyhow::{Context, Result, anyhow, bail};
 use glam::DVec3;
 use std::{path::Path, sync::Arc};
@@ -58,13 +59,15 @@ pub(crate) fn load_view(name: &str, arguments: &ViewArguments) -> Result<Shot> {
         Some(text) => views::light(text, &scene).map(Some).with_context(|| format!("--light {text}"))?,
     };
     let geometry = Geometry { single_sided: arguments.arrangement.single_sided, ..scene.flatten() };
-    let (camera, light) = complete(&scene, &geometry, camera, light)?;
+    let tree = SharedTree::default();
+    let (camera, light) = complete(&scene, (&geometry, &tree), camera, light)?;
     if arguments.cascades > 1 && matches!(light, Light::Spot { .. }) {
         note(&format!("--cascades {}: a spot has one view; cascades are a sun's", arguments.cascades));
     }
     Ok(Shot {
         name: name.into(),
         geometry: Arc::new(geometry),
+        tree,
         camera,
         light,
         resolution,
@@ -82,11 +85,11 @@ fn bias(text: &str) -> Result<Bias> {
 /// What neither the file nor the command line says, with a note that tells how to say it.
 fn complete(
     scene: &Scene,
-    geometry: &Geometry,
+    (geometry, tree): (&Geometry, &SharedTree),
     camera: Option<Camera>,
     light: Option<Light>,
 ) -> Result<(Camera, Light)> {
-    let chosen = default_view::choose(scene, geometry, camera, light)?;
+    let chosen = default_view::choose(scene, (geometry, tree), camera, light)?;
     let number = |v: f64| {
         if v == 0.0 || (1e-3..1e9).contains(&v.abs()) { format!("{v:.4}") } else { format!("{v:e}") }
     };

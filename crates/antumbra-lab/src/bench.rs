@@ -39,7 +39,7 @@ pub struct Results {
 /// Time of the hard truth, seconds.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct TruthTime {
-    /// Time to build the acceleration structure.
+    /// Time to build the acceleration structure; next to nothing where a default view was chosen with it.
     pub seconds_build: f64,
     /// Time to trace.
     pub seconds_hard: f64,

@@ -5,8 +5,8 @@
 //! shadow, weighed by how evenly light and shadow divide it; the first pair that comes near the best wins, so
 //! that the usual sun over the left shoulder stays where it does its work.
 
-use antumbra_scene::{Camera, Geometry, Light, Projection, Scene};
-use antumbra_truth::{CameraRays, Hit, Tracer, TruthError};
+use antumbra_scene::{Aabb, Camera, Geometry, Light, Projection, Scene};
+use antumbra_truth::{CameraRays, Hit, SharedTree, Tracer, TruthError};
 use glam::{Quat, Vec3};
 use std::f32::consts::TAU;
 
@@ -24,6 +24,8 @@ const EYES: [f32; 4] = [0.25, -0.25, 0.15, -0.15];
 const CLEARANCE: f32 = 0.06;
 /// Closer views: the part of the picture's height that is to be filled. Shadows are to be seen beside it.
 const NEARNESS: [f32; 2] = [0.5, 1.0];
+/// Triangles that are looked at to find where most of them are.
+const SAMPLE: usize = 1 << 16;
 /// Share of the triangles at either end of an axis that a closer view does not have to hold.
 const FEW: f32 = 0.02;
 /// Height of the eye above the floor, as a share of the scene's height, for views from inside.
@@ -37,14 +39,14 @@ const EYE_HEIGHT: f32 = 0.12;
 /// [`TruthError`], as [`Tracer::new`].
 pub fn choose(
     scene: &Scene,
-    geometry: &Geometry,
+    (geometry, tree): (&Geometry, &SharedTree),
     camera: Option<Camera>,
     light: Option<Light>,
 ) -> Result<(Camera, Light), TruthError> {
     if let (Some(camera), Some(light)) = (camera, light) {
         return Ok((camera, light));
     }
-    let tracer = Tracer::new(geometry)?;
+    let tracer = Tracer::sharing(geometry, tree)?;
     let cameras = camera.map_or_else(|| cameras(scene, &tracer), |camera| vec![camera]);
     let mut pairs: Vec<(f64, Camera, Light)> = Vec::new();
     for camera in &cameras {
@@ -90,28 +92,39 @@ fn cameras(scene: &Scene, tracer: &Tracer<'_>) -> Vec<Camera> {
         is_clear(tracer, &camera, CLEARANCE * size.length()).then_some(camera)
     };
     if !is_inside(tracer, middle) {
-        let closer = NEARNESS.into_iter().filter_map(|n| closer(tracer.geometry(), &outside, n));
+        let closer = main_box(tracer.geometry()).into_iter().flat_map(|main| {
+            NEARNESS.into_iter().filter_map(move |nearness| closer(main, &outside, nearness))
+        });
         return std::iter::once(outside).chain(closer).collect();
     }
     EYES.into_iter().filter_map(inside).chain([outside]).collect()
 }
 
-/// The same view of what most triangles are in: of an object rather than of the ground that it stands on.
-fn closer(geometry: &Geometry, outside: &Camera, nearness: f32) -> Option<Camera> {
-    let count = geometry.triangle_count();
+/// What most triangles are in: an object rather than the ground that it stands on.
+///
+/// Cost: looks at [`SAMPLE`] triangles at most, at equal distances in the list of all.
+fn main_box(geometry: &Geometry) -> Option<Aabb> {
+    let stride = geometry.triangle_count().div_ceil(SAMPLE).max(1);
+    let sample: Vec<Vec3> = (0..geometry.triangle_count())
+        .step_by(stride)
+        .map(|t| geometry.triangle(t).iter().sum::<Vec3>() / 3.0)
+        .collect();
     let along = |axis: usize| {
-        let centre = |t: usize| geometry.triangle(t).iter().map(|corner| corner[axis]).sum::<f32>() / 3.0;
-        let mut centres: Vec<f32> = (0..count).map(centre).collect();
+        let mut centres: Vec<f32> = sample.iter().map(|centre| centre[axis]).collect();
         centres.sort_by(f32::total_cmp);
-        let at = |share: f32| centres.get(((count - 1) as f32 * share) as usize).copied();
-        Some([at(FEW)?, at(1.0 - FEW)?])
+        let last = centres.len().checked_sub(1)?;
+        Some([FEW, 1.0 - FEW].map(|share| centres[(last as f32 * share) as usize]))
     };
     let [x, y, z] = [along(0)?, along(1)?, along(2)?];
-    let (low, high) = (Vec3::new(x[0], y[0], z[0]), Vec3::new(x[1], y[1], z[1]));
+    Some(Aabb { min: Vec3::new(x[0], y[0], z[0]), max: Vec3::new(x[1], y[1], z[1]) })
+}
+
+/// The same view of a part of the scene.
+fn closer(part: Aabb, outside: &Camera, nearness: f32) -> Option<Camera> {
     let backward = (outside.position.as_dvec3() - outside.target.as_dvec3()).normalize().as_vec3();
     let Projection::Perspective { fov_y } = outside.projection else { return None };
-    let distance = 0.5 * (high - low).as_dvec3().length() as f32 / (fov_y / 2.0).tan() / nearness;
-    let target = (low + high) / 2.0;
+    let distance = 0.5 * part.size().as_dvec3().length() as f32 / (fov_y / 2.0).tan() / nearness;
+    let target = (part.min + part.max) / 2.0;
     (distance > 0.0).then_some(Camera { position: target + backward * distance, target, ..*outside })
 }
 
@@ -202,7 +215,7 @@ mod tests {
             let mut scene = entry.scene(1);
             (scene.cameras, scene.lights) = (Vec::new(), Vec::new());
             let geometry = scene.flatten();
-            let (camera, light) = choose(&scene, &geometry, None, None).unwrap();
+            let (camera, light) = choose(&scene, (&geometry, &SharedTree::default()), None, None).unwrap();
             let share = shadow(&geometry, &camera, &light);
             assert!((0.03..0.97).contains(&share), "{}: {share}", entry.name);
         }
@@ -212,7 +225,7 @@ mod tests {
     fn buildings_are_seen_from_inside() {
         let scene = courtyard();
         let geometry = scene.flatten();
-        let (camera, light) = choose(&scene, &geometry, None, None).unwrap();
+        let (camera, light) = choose(&scene, (&geometry, &SharedTree::default()), None, None).unwrap();
         let share = shadow(&geometry, &camera, &light);
         assert!((0.1..0.9).contains(&share), "{share}");
         let bounds = geometry.bounds().unwrap();
@@ -223,7 +236,7 @@ mod tests {
         // The same walls wound the other way around are an object.
         let mut turned = scene;
         turned.meshes[0].indices.chunks_exact_mut(3).for_each(|corners| corners.swap(1, 2));
-        let (camera, _) = choose(&turned, &turned.flatten(), None, None).unwrap();
+        let (camera, _) = choose(&turned, (&turned.flatten(), &SharedTree::default()), None, None).unwrap();
         assert_eq!(camera, turned.default_camera());
     }
 
@@ -232,9 +245,9 @@ mod tests {
         let scene = courtyard();
         let geometry = scene.flatten();
         let sun = Light::Directional { direction: Vec3::NEG_Y };
-        let (camera, light) = choose(&scene, &geometry, None, Some(sun)).unwrap();
+        let (camera, light) = choose(&scene, (&geometry, &SharedTree::default()), None, Some(sun)).unwrap();
         assert_eq!(light, sun);
-        let (again, other) = choose(&scene, &geometry, Some(camera), None).unwrap();
+        let (again, other) = choose(&scene, (&geometry, &SharedTree::default()), Some(camera), None).unwrap();
         assert_eq!(again, camera);
         assert_ne!(other, sun);
     }

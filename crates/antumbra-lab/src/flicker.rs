@@ -87,7 +87,7 @@ pub fn measure(gpu: &Gpu, request: &Request, progress: &dyn Progress) -> Result<
     let start = Instant::now();
     let frames = frames(request)?;
     progress.step("upload");
-    let tracer = Tracer::new(&request.shot.geometry)?;
+    let tracer = Tracer::sharing(&request.shot.geometry, &request.shot.tree)?;
     let mut recording = Recording::new(gpu, request, Truths::new(&tracer, request)?)?;
     progress.step(&format!("frames of the path: {}", frames.len()));
     for (number, frame) in frames.iter().enumerate() {

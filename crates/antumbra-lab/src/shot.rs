@@ -4,6 +4,7 @@ use crate::map_views::MapViews;
 use antumbra::{ShadowMap, Technique, View, technique::Bias};
 use antumbra_render::{GpuScene, views};
 use antumbra_scene::{Camera, Geometry, Light};
+use antumbra_truth::SharedTree;
 use anyhow::{Context, Result};
 use glam::Mat4;
 use std::sync::Arc;
@@ -15,6 +16,8 @@ pub struct Shot {
     pub name: String,
     /// Its triangles.
     pub geometry: Arc<Geometry>,
+    /// What tracers of these triangles share.
+    pub tree: SharedTree,
     /// Where it is seen from.
     pub camera: Camera,
     /// What it is lit by.

@@ -75,7 +75,7 @@ impl<'s> TracedShot<'s> {
     /// Triangles that cannot be traced, a camera without a picture.
     pub fn new(shot: &'s Shot) -> Result<Self> {
         let [width, height] = shot.resolution;
-        let tracer = Tracer::new(&shot.geometry)?;
+        let tracer = Tracer::sharing(&shot.geometry, &shot.tree)?;
         Ok(Self { shot, tracer, rays: CameraRays::new(&shot.camera, width, height)? })
     }
 

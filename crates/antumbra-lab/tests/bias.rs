@@ -110,6 +110,7 @@ fn measure(
         camera: scene.main_camera(),
         light: scene.main_light(),
         geometry: Arc::new(scene.flatten()),
+        tree: Default::default(),
         resolution,
         map_size,
         kernel: 5,

@@ -84,6 +84,7 @@ fn uploaded(gpu: &Gpu, name: &str) -> (GpuScene, Shot) {
     let shot = Shot {
         name: name.into(),
         geometry: Arc::new(scene.flatten()),
+        tree: Default::default(),
         camera: scene.main_camera(),
         light: scene.main_light(),
         resolution: RESOLUTION,

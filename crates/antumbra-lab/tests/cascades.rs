@@ -113,6 +113,7 @@ fn valley() -> Shot {
     Shot {
         name: scene.name.clone(),
         geometry: Arc::new(scene.flatten()),
+        tree: Default::default(),
         camera: Camera {
             position: Vec3::new(0.0, 5.0, 14.0),
             target: Vec3::new(0.0, 0.8, 0.0),

@@ -138,6 +138,7 @@ fn request(scene: &str, path: Path, techniques: &[&str]) -> Request {
             camera: scene.main_camera(),
             light: scene.main_light(),
             geometry: Arc::new(scene.flatten()),
+            tree: Default::default(),
             resolution: [96, 72],
             map_size: 256,
             kernel: 5,

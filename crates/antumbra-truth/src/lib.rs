@@ -66,4 +66,4 @@ pub use coverage::{Coverage, CoverageTolerance, Difference};
 pub use error::TruthError;
 pub use kernel::{Kernel, MapTexels, TexelAxes};
 pub use shadow::Visibility;
-pub use tracer::{Hit, Tracer};
+pub use tracer::{Hit, SharedTree, Tracer};

@@ -7,7 +7,7 @@ use crate::{CameraRays, Ray, TruthError};
 use antumbra_scene::{AlphaMode, Geometry};
 use glam::DVec3;
 use rayon::prelude::*;
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 /// What a primary ray sees.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,13 +40,37 @@ impl Hit {
     }
 }
 
+/// A tree over the triangles of a geometry that several tracers share: the first builds it.
+#[derive(Clone, Default)]
+pub struct SharedTree(Arc<OnceLock<Arc<Tree>>>);
+
+impl SharedTree {
+    /// The tree if it is one over this geometry, else a new one; kept where there was none.
+    fn over(&self, geometry: &Geometry) -> Result<Arc<Tree>, TruthError> {
+        match self.0.get() {
+            Some(tree) if tree.is_over(geometry)? => Ok(Arc::clone(tree)),
+            Some(_) => Ok(Arc::new(Tree::new(geometry)?)),
+            None => {
+                let tree = Arc::new(Tree::new(geometry)?);
+                Ok(Arc::clone(self.0.get_or_init(|| tree)))
+            }
+        }
+    }
+}
+
+impl std::fmt::Debug for SharedTree {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_tuple("SharedTree").field(&self.0.get().map(|tree| tree.triangle_count())).finish()
+    }
+}
+
 /// Traces rays through a [`Geometry`].
 ///
 /// Every triangle stops rays from both sides; points that [`Geometry::is_cut`] removes let them
 /// pass. Answers depend on the input alone: neither on the number of threads nor on chance.
 pub struct Tracer<'g> {
     pub(crate) geometry: &'g Geometry,
-    pub(crate) tree: Tree,
+    pub(crate) tree: Arc<Tree>,
     pub(crate) clearance_ulps: f64,
     /// Triangles from here on may have cut-out points.
     first_masked: u32,
@@ -76,6 +100,16 @@ impl<'g> Tracer<'g> {
     /// [`TruthError::BadTriangle`] for broken ones, [`TruthError::TooDeep`] for sizes that no tree
     /// can sort.
     pub fn new(geometry: &'g Geometry) -> Result<Self, TruthError> {
+        Self::sharing(geometry, &SharedTree::default())
+    }
+
+    /// The same with a tree that is shared with other tracers of this geometry.
+    ///
+    /// Cost: that of [`new`](Self::new) for the first of them.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn sharing(geometry: &'g Geometry, tree: &SharedTree) -> Result<Self, TruthError> {
         let first_masked = geometry
             .groups
             .iter()
@@ -87,7 +121,7 @@ impl<'g> Tracer<'g> {
             .min();
         Ok(Self {
             geometry,
-            tree: Tree::new(geometry)?,
+            tree: tree.over(geometry)?,
             clearance_ulps: Self::CLEARANCE_ULPS,
             first_masked: first_masked.unwrap_or(u32::MAX),
             bodies: OnceLock::new(),

@@ -73,8 +73,28 @@ impl Tree {
             return Err(TruthError::TooDeep { triangles: count, depth, limit: DEPTH_LIMIT });
         }
         let numbers = nodes.primitive_indices.clone();
-        let corners = numbers.iter().map(|&t| solid(geometry.triangle(t as usize)).map(Vec3::into)).collect();
+        let corners =
+            numbers.iter().map(|&t| solid(geometry.triangle(t as usize)).map(|p| p.to_array())).collect();
         Ok(Self { nodes, corners, numbers, center, scale, low, high })
+    }
+
+    /// Number of triangles.
+    pub(crate) fn triangle_count(&self) -> usize {
+        self.numbers.len()
+    }
+
+    /// Whether these are its triangles.
+    ///
+    /// Cost: reads every triangle once.
+    pub(crate) fn is_over(&self, geometry: &Geometry) -> Result<bool, TruthError> {
+        if self.triangle_count() != geometry.triangle_count() {
+            return Ok(false);
+        }
+        bounds(geometry)?;
+        let same = |(&t, corners): (&u32, &Corners)| {
+            *corners == solid(geometry.triangle(t as usize)).map(|p| p.to_array())
+        };
+        Ok(self.numbers.par_iter().zip(&self.corners).all(same))
     }
 
     /// The nearest triangle that the ray meets within `span` and that `counts`; of several at the

@@ -5,7 +5,7 @@
 mod common;
 
 use antumbra_scene::Geometry;
-use antumbra_truth::{Hit, Ray, Tracer, TruthError};
+use antumbra_truth::{Hit, Ray, SharedTree, Tracer, TruthError};
 use common::{Random, geometry, grid, sphere};
 use glam::{DVec3, Vec3};
 
@@ -146,4 +146,23 @@ fn refuses_broken_geometry() {
     let mut bad = good;
     bad.indices.pop();
     assert_eq!(Tracer::new(&bad).unwrap_err(), TruthError::BadIndices { indices: 5 });
+}
+
+/// A tree is shared by tracers of one geometry and never serves another, however alike.
+#[test]
+fn shared_trees_serve_their_own_geometry() {
+    let ball = |radius| geometry(&sphere(DVec3::ZERO, radius, 12));
+    let (small, large) = (ball(1.0), ball(1.5));
+    let ray = Ray { origin: DVec3::new(0.1, 0.2, 9.0), direction: DVec3::NEG_Z };
+    let tree = SharedTree::default();
+    let met = |geometry: &Geometry| Tracer::sharing(geometry, &tree).unwrap().trace(&ray);
+    let alone = |geometry: &Geometry| Tracer::new(geometry).unwrap().trace(&ray);
+    for geometry in [&small, &small, &large, &small] {
+        assert_eq!(met(geometry), alone(geometry));
+    }
+    assert_ne!(alone(&small), alone(&large));
+    let broken = Geometry { indices: vec![0, 1, 999_999], ..small };
+    assert!(matches!(Tracer::sharing(&broken, &tree), Err(TruthError::BadTriangle { .. })));
+    let many = Geometry { indices: [0, 1, 999_999].repeat(large.triangle_count()), ..large };
+    assert!(matches!(Tracer::sharing(&many, &tree), Err(TruthError::BadTriangle { .. })));
 }

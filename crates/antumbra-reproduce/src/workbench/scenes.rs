@@ -28,6 +28,7 @@ impl Scenes {
         let shot = Shot {
             name: name.into(),
             geometry: Arc::new(scene.flatten()),
+            tree: Default::default(),
             camera: scene.main_camera(),
             light: scene.main_light(),
             resolution: [1, 1],
