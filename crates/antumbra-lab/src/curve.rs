@@ -4,7 +4,7 @@
 use crate::{gpu::Gpu, shaders};
 use antumbra::{
     Capabilities, CasterMesh, DEPTH_FORMAT, Options, ShadowMap, Size, Technique, View,
-    technique::{self, Bias, Caster},
+    technique::{self, Bias, CasterStorage},
 };
 use anyhow::{Context, Result, bail};
 use glam::{Mat4, Vec4};
@@ -32,7 +32,7 @@ pub fn visibility(gpu: &Gpu, technique: &dyn Technique, caster: f32, receivers: 
 pub fn edge(gpu: &Gpu, technique: &dyn Technique, positions: &[f32]) -> Result<Vec<f32>> {
     let texel = 2.0 / SIZE.width as f32;
     let device = Capabilities::of(&gpu.device);
-    if technique.describe(&device)?.caster != Caster::Depth {
+    if technique.describe(&device)?.storage != CasterStorage::Depth {
         bail!("{} keeps triangles and filters no texels", technique::spec(technique));
     }
     if let Some(far) = positions.iter().find(|p| !(-16.0..=16.0).contains(*p)) {
@@ -56,8 +56,8 @@ fn answers(
         ShadowMap::new(&gpu.device, technique, options).with_context(|| technique::spec(technique))?;
     shadows.prepare(&gpu.queue, &[view()])?;
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    match shadows.description().caster {
-        Caster::Depth => {
+    match shadows.description().storage {
+        CasterStorage::Depth => {
             let flat = flat(gpu, caster);
             shadows.encode(&mut encoder, |pass| {
                 pass.set_pipeline(&flat);

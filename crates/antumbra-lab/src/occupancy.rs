@@ -41,11 +41,11 @@ impl Occupancy {
     /// # Errors
     /// If the device is lost.
     pub fn read(gpu: &Gpu, shadows: &ShadowMap) -> Result<Option<Self>> {
-        if !shadows.description().caster.keeps_ids() {
+        if !shadows.description().storage.keeps_ids() {
             return Ok(None);
         }
         let (triangles, capacity) = (shadows.triangles_drawn(), shadows.capacity());
-        let Some(totals) = shadows.list_totals() else {
+        let Some(totals) = shadows.abuffer_totals() else {
             return Ok(Some(Self { triangles, lists: None, capacity }));
         };
         let staging = gpu.device.create_buffer(&wgpu::BufferDescriptor {

@@ -113,7 +113,7 @@ impl<'g> Session<'g> {
         self.left_out.extend(left_out);
         let views = self.fit(first)?;
         self.set_views(first, &views)?;
-        let ids = |prepared: &&mut Prepared| prepared.shadows.description().caster.keeps_ids();
+        let ids = |prepared: &&mut Prepared| prepared.shadows.description().storage.keeps_ids();
         for prepared in self.prepared[first..].iter_mut().filter(ids) {
             prepared.draw_maps(self.gpu, &self.scene)?;
         }

@@ -61,7 +61,7 @@ mod tests {
         for (technique, options) in all.iter().flat_map(|t| [(t, &plain), (t, &asking)]) {
             let described = technique.describe(&device).unwrap();
             let name = described.about.name;
-            let covers = if options.cutouts && described.caster.keeps_ids() { COVERS } else { "" };
+            let covers = if options.cutouts && described.storage.keeps_ids() { COVERS } else { "" };
             let receiver =
                 |group| ShaderText::receiver(technique.as_ref(), &device, options, group).unwrap().text();
             let class = (!described.classes.is_empty()).then_some(("class", CLASS, 1));

@@ -8,7 +8,7 @@ mod common;
 
 use antumbra::{
     Bounds, CasterMesh, Fit, Light, ShadowMap, Size,
-    technique::{self, Caster},
+    technique::{self, CasterStorage},
 };
 use common::{HEIGHT, WIDTH};
 use glam::{Mat4, Vec2, Vec3, camera::rh};
@@ -139,7 +139,7 @@ pub fn run(
 
     let mut encoder = device.create_command_encoder(&Default::default());
     shadows.prepare(queue, &[view])?;
-    if shadows.description().caster == Caster::Depth {
+    if shadows.description().storage == CasterStorage::Depth {
         shadows.encode(&mut encoder, |pass| {
             let matrix = common::uniform(device, &matrices, pass.view().clip_from_world);
             pass.set_pipeline(&cast);

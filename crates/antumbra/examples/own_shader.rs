@@ -7,7 +7,7 @@ mod common;
 
 use antumbra::{
     Bounds, CASTER_WGSL, CameraFit, Capabilities, Cascades, CasterMesh, Light, Options, ShadowMap, Size,
-    technique::{self, Caster},
+    technique::{self, CasterStorage},
 };
 use common::{HEIGHT, Mesh, WIDTH};
 use glam::{Mat4, Vec3, camera::rh};
@@ -108,7 +108,7 @@ pub fn run(
             Cascades::new(3),
         )?;
         shadows.prepare(queue, &views)?;
-        if shadows.description().caster == Caster::Depth {
+        if shadows.description().storage == CasterStorage::Depth {
             // Of the views of `prepare`, or of several for each (`stratified`).
             let casts = shadows.caster_views().iter();
             let matrices: Vec<_> =

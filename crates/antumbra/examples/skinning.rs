@@ -7,7 +7,7 @@ mod common;
 
 use antumbra::{
     Bounds, CasterMesh, Fit, Light, ShadowMap, Size,
-    technique::{self, Caster},
+    technique::{self, CasterStorage},
 };
 use common::{HEIGHT, WIDTH};
 use glam::{Mat4, Vec3, Vec4, camera::rh};
@@ -134,7 +134,7 @@ pub fn run(
         pass.dispatch_workgroups(count.div_ceil(64), 1, 1);
     }
     shadows.prepare(queue, &[view])?;
-    if shadows.description().caster == Caster::Depth {
+    if shadows.description().storage == CasterStorage::Depth {
         shadows.encode(&mut encoder, |pass| {
             let matrix = common::uniform(device, &matrices, pass.view().clip_from_world);
             pass.set_pipeline(&cast);

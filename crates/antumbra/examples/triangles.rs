@@ -7,7 +7,7 @@ mod common;
 
 use antumbra::{
     Bounds, Capacity, CasterMesh, Fit, Light, Options, ShadowMap, Size,
-    technique::{self, Caster},
+    technique::{self, CasterStorage},
 };
 use common::{HEIGHT, Mesh, WIDTH};
 use glam::{Mat4, Vec3, camera::rh};
@@ -65,7 +65,7 @@ pub fn run(
     let capacity = Capacity { triangles, ..Capacity::default() };
     let options = Options::from(Size::square(128)).capacity(capacity);
     let mut shadows = ShadowMap::new(device, technique.as_ref(), options)?;
-    if shadows.description().caster == Caster::Depth {
+    if shadows.description().storage == CasterStorage::Depth {
         return Err(format!("{spec} keeps depth: its casters are drawn as in the example hello").into());
     }
     let scene = Bounds { min: Vec3::new(-6.0, -0.2, -6.0), max: Vec3::new(6.0, 2.1, 6.0) };

@@ -6,7 +6,7 @@
 
 use crate::{
     capabilities::Capabilities,
-    describe::Caster,
+    describe::CasterStorage,
     error::Unsupported,
     light::View,
     map::{MemoryItem, Options, Pipelines, Probe, Textures},
@@ -33,15 +33,21 @@ mod store;
 mod triangle;
 mod views;
 
-pub(crate) use arrays::{Array, Element, Image};
 pub use capacity::Capacity;
 pub use cutout::CutoutCaster;
 pub use mesh::{CasterMesh, MeshPart};
 pub use pass::CasterPass;
 pub(crate) use pass::Drawn;
 #[cfg(feature = "store")]
-pub(crate) use store::OwnStore;
-pub(crate) use store::{Site, Step, Store};
+pub use {
+    arrays::{Array, Element, Image},
+    store::{OwnStore, Site, Step, Store},
+};
+#[cfg(not(feature = "store"))]
+use {
+    arrays::{Array, Element, Image},
+    store::{Site, Step, Store},
+};
 
 /// The plan of what a technique's casters leave in a map: the only place that knows all stores.
 pub(crate) fn plan<'a>(
@@ -51,15 +57,15 @@ pub(crate) fn plan<'a>(
 ) -> Box<dyn Plan + 'a> {
     let site = Site::new(composition, device, options);
     let ids = |store: Box<dyn Store>| Box::new(ids::IdPlan::new(store, site.clone()));
-    match composition.description.caster {
-        Caster::Depth => Box::new(depth::DepthPlan),
-        Caster::Triangles(coverages) => {
+    match composition.description.storage {
+        CasterStorage::Depth => Box::new(depth::DepthPlan),
+        CasterStorage::NearestTriangle(coverages) => {
             Box::new(nearest::NearestPlan { composition, device, options, coverages })
         }
-        Caster::Lists => ids(Box::new(abuffer::ABuffer)),
-        Caster::Ranked { keeps } => ids(Box::new(kbuffer::KBuffer { capacity: keeps })),
+        CasterStorage::ABuffer => ids(Box::new(abuffer::ABuffer)),
+        CasterStorage::KBuffer { k } => ids(Box::new(kbuffer::KBuffer { k })),
         #[cfg(feature = "store")]
-        Caster::Own(OwnStore(store)) => Box::new(ids::IdPlan::new(store, site)),
+        CasterStorage::Own(OwnStore(store)) => Box::new(ids::IdPlan::new(store, site)),
     }
 }
 
@@ -103,7 +109,7 @@ pub(crate) trait Cast: Debug + Send + Sync {
         shader: &str,
         user: &[&BindGroupLayout],
     ) -> Option<RenderPipeline>;
-    /// What [`ShadowMap::list_totals`](crate::ShadowMap::list_totals) promises.
+    /// What [`ShadowMap::abuffer_totals`](crate::ShadowMap::abuffer_totals) promises.
     fn totals(&self) -> Option<&Buffer> {
         None
     }

@@ -7,14 +7,14 @@
 use crate::{capabilities::Capabilities, error::Unsupported, parameter::Parameter};
 use std::fmt::Debug;
 
-mod caster;
 mod description;
 pub(crate) mod map;
+mod storage;
 pub(crate) mod wgsl;
 
-pub use caster::{Caster, Coverage};
 pub use description::Description;
 pub use map::{Access, Combine, Encode, Map, Pass};
+pub use storage::{CasterStorage, Coverage};
 pub use wgsl::{Binding, Class, Constant, DepthSpace, Setting};
 
 /// How a technique gets from depth to visibility.
@@ -119,8 +119,8 @@ pub struct About {
 ///
 /// Functions that composition writes beside it, and that every function may call, read what is set at run
 /// time: `x_NAME() -> f32` for each of [`Description::settings`], `x_NAME(view: u32) -> f32` for each of
-/// [`Description::widths`], and what comes with [`Description::blur`] and with what casters leave
-/// ([`Caster`]). If there are [classes](Description::classes) it also defines `x_class`, with
+/// [`Description::widths`], and what comes with [`Description::blur`] and with what is kept of
+/// casters ([`CasterStorage`]). If there are [classes](Description::classes) it also defines `x_class`, with
 /// the same parameters. The first line may be `//! needs a b`: shared files, and slots that
 /// [`Description::slots`] fill.
 pub trait Technique: Debug + Send + Sync {

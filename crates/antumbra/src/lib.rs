@@ -57,7 +57,7 @@
 //!
 //! # Casters and receivers
 //!
-//! - What casters draw depends on what a technique keeps ([`Description::caster`]). Most keep depth, which your
+//! - What casters draw depends on what a technique keeps ([`Description::storage`]). Most keep depth, which your
 //!   own pipelines draw once per view; `stratified` asks for it n² times per view, each time from a view
 //!   that is shifted by a fraction of a texel, so place casters by [`CasterPass::view`]. `rgsm`, `spsm`,
 //!   `dpm` and `exact` keep triangles: [`CasterPass::draw_mesh`] draws a [`CasterMesh`] by pipelines of the

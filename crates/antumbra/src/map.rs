@@ -94,18 +94,19 @@ impl ShadowMap {
         Ok(())
     }
 
-    /// Two `u32` per view, usage `COPY_SRC`, for techniques whose caster is [`Caster::Lists`](crate::technique::Caster::Lists): entries
-    /// that the casters of the last [`encode`](Self::encode) needed, of the `width · height` times
-    /// [`Capacity::triangles_per_texel`] that there is memory for; length of the longest list.
+    /// Two `u32` per view, usage `COPY_SRC`, for techniques whose storage is
+    /// [`CasterStorage::ABuffer`](crate::technique::CasterStorage::ABuffer): entries that the casters of the last
+    /// [`encode`](Self::encode) needed, of the `width · height` times [`Capacity::triangles_per_texel`] that
+    /// there is memory for; length of the longest list.
     #[must_use]
-    pub fn list_totals(&self) -> Option<&wgpu::Buffer> {
+    pub fn abuffer_totals(&self) -> Option<&wgpu::Buffer> {
         self.cast.totals()
     }
 
-    /// Numbers that the last [`encode`](Self::encode) gave to triangles in the view with most, for
-    /// techniques whose caster is [`Caster::Lists`](crate::technique::Caster::Lists) or [`Caster::Ranked`](crate::technique::Caster::Ranked): one for each triangle that was
-    /// drawn, two under a spot, which may cut it in two, and those of triangles before the first that was
-    /// drawn. What is beyond [`Capacity::triangles`] casts no shadow. Else 0.
+    /// Ids that the last [`encode`](Self::encode) gave to triangles in the view with most, where the technique
+    /// [keeps them by id](crate::technique::CasterStorage::keeps_ids): one for each triangle that was drawn, two
+    /// under a spot, which may cut it in two, and those of triangles before the first that was drawn. What is
+    /// beyond [`Capacity::triangles`] casts no shadow. Else 0.
     #[must_use]
     pub fn triangles_drawn(&self) -> u32 {
         self.drawn.load(Ordering::Relaxed)

@@ -5,7 +5,7 @@
 
 use crate::{
     capabilities::Capabilities,
-    describe::{Caster, Combine, Map, Pass},
+    describe::{CasterStorage, Combine, Map, Pass},
     light::Size,
     shader::Composition,
 };
@@ -153,7 +153,7 @@ pub(crate) fn scratch_layers(map: &Map, device: &Capabilities) -> u32 {
 pub(crate) fn plan(composition: &Composition, device: &Capabilities, size: Size) -> Vec<Step> {
     let mut steps = Vec::new();
     let description = &composition.description;
-    if description.caster != Caster::Depth {
+    if description.storage != CasterStorage::Depth {
         return steps;
     }
     let casts = description.sample_offsets.len() as u32;

@@ -8,8 +8,8 @@ use crate::{error::SettingError, parameter::Parameter};
 pub use crate::{
     bias::{Bias, BiasTerms},
     describe::{
-        About, Access, Binding, Caster, Class, Combine, Constant, Coverage, DepthSpace, Description, Encode,
-        Family, Map, Pass, Setting, Technique,
+        About, Access, Binding, CasterStorage, Class, Combine, Constant, Coverage, DepthSpace, Description,
+        Encode, Family, Map, Pass, Setting, Technique,
     },
     kernel::{Adaptive, Width},
 };

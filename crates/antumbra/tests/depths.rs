@@ -6,7 +6,7 @@ mod common;
 
 use antumbra::{
     CasterError, Depth, NoProbe, PrepareError, ShadowMap, Size, Technique, Unsupported, View, technique,
-    technique::Caster,
+    technique::CasterStorage,
 };
 use antumbra_testing::{Gpu, Trials};
 use common::{Random, Receiver, depth_layers, view, visibility};
@@ -51,7 +51,7 @@ fn answers(gpu: &Gpu, technique: &dyn Technique, depth: Depth<'_>, view: View) -
 /// Caster passes of a technique that takes depth.
 fn casts(gpu: &Gpu, technique: &dyn Technique) -> Option<u32> {
     let description = technique.describe(&antumbra::Capabilities::of(&gpu.device)).unwrap();
-    (description.caster == Caster::Depth).then_some(description.sample_offsets.len() as u32)
+    (description.storage == CasterStorage::Depth).then_some(description.sample_offsets.len() as u32)
 }
 
 /// Largest difference between answers.

@@ -6,7 +6,7 @@ mod common;
 
 use antumbra::{
     Capabilities, CasterPass, DEPTH_FORMAT, Options, ShadowMap, Size, Technique, Unsupported, technique,
-    technique::Caster,
+    technique::CasterStorage,
 };
 use antumbra_testing::{Gpu, Trials, broken::Broken};
 use glam::Vec3;
@@ -72,8 +72,8 @@ fn casters(gpu: &Gpu) {
             pass.draw(0..3, 0..1);
         });
         let with_mesh = encoded(&|pass| pass.draw_mesh(&mesh, ..));
-        let (keeps, [good, bad]) = match technique.describe(&Capabilities::full()).unwrap().caster {
-            Caster::Depth => ("keeps depth", [with_own, with_mesh]),
+        let (keeps, [good, bad]) = match technique.describe(&Capabilities::full()).unwrap().storage {
+            CasterStorage::Depth => ("keeps depth", [with_own, with_mesh]),
             _ => ("keeps triangles", [with_mesh, with_own]),
         };
         good.unwrap();
@@ -139,7 +139,8 @@ fn cutouts(_: &Gpu) {
             let made = |wgsl: &str, layouts: &[&wgpu::BindGroupLayout]| {
                 shadows.cutout_caster(&gpu.device, wgsl, layouts)
             };
-            let triangles = technique.describe(&Capabilities::full()).unwrap().caster != Caster::Depth;
+            let triangles =
+                technique.describe(&Capabilities::full()).unwrap().storage != CasterStorage::Depth;
             assert_eq!(made(COVERS, &[&one, &one]).unwrap().is_some(), triangles);
             if !triangles {
                 continue;

@@ -91,7 +91,7 @@ fn add(shaders: &mut Shaders, spec: &str, options: &Options, needs: Needs) {
     }
     let described = technique.describe(&device).unwrap();
     let asks = if described.classes.is_empty() { "" } else { CLASSIFIES };
-    let covers = if options.cutouts && described.caster.keeps_ids() { COVERS } else { "" };
+    let covers = if options.cutouts && described.storage.keeps_ids() { COVERS } else { "" };
     let receiver = ShaderText::receiver(technique.as_ref(), &device, options, 1).unwrap().text();
     shaders.add(&format!("{spec}: receiver"), format!("{RECEIVES}{asks}{covers}\n{receiver}"), &[], needs);
 }

@@ -2,7 +2,7 @@
 
 use super::GpuScene;
 use crate::{Gpu, RenderError, layout::loaded_buffer, shaders};
-use antumbra::{CasterMesh, CutoutCaster, ShadowMap, View, technique::Caster};
+use antumbra::{CasterMesh, CutoutCaster, ShadowMap, View, technique::CasterStorage};
 use glam::Mat4;
 
 /// What drawing casters for one shadow map takes.
@@ -26,7 +26,7 @@ impl Casters {
     /// # Errors
     /// More geometry than one binding may hold.
     pub fn new(gpu: &Gpu, scene: &GpuScene, shadows: &ShadowMap) -> Result<Self, RenderError> {
-        if shadows.description().caster == Caster::Depth {
+        if shadows.description().storage == CasterStorage::Depth {
             return Ok(Self::Depth(ViewMatrices::new(gpu, scene, shadows.caster_views())));
         }
         let (positions, indices) = (&scene.positions, &scene.indices);

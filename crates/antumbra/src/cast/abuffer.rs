@@ -1,7 +1,7 @@
-//! The A-buffer: lists of all triangles that touch each texel, for [`Caster::Lists`]. Triangles are drawn once
-//! to count them, texels are given entries, and triangles are drawn again to fill them.
+//! The A-buffer: lists of all triangles that touch each texel, for [`CasterStorage::ABuffer`]. Triangles are
+//! drawn once to count them, texels are given entries, and triangles are drawn again to fill them.
 //!
-//! [`Caster::Lists`]: crate::technique::Caster::Lists
+//! [`CasterStorage::ABuffer`]: crate::technique::CasterStorage::ABuffer
 
 use super::{Array, Element, Image, Site, Step, Store};
 
@@ -75,7 +75,7 @@ impl Store for ABuffer {
 
     fn explain(&self, site: &Site<'_>) -> String {
         format!(
-            "lists of {} triangles, {} per texel, of {} different ones in each view; list_totals() and triangles_drawn() tell whether that was enough, Options::capacity sets it",
+            "lists of {} triangles, {} per texel, of {} different ones in each view; abuffer_totals() and triangles_drawn() tell whether that was enough, Options::capacity sets it",
             entries(site),
             site.capacity.triangles_per_texel,
             site.capacity.triangles

@@ -8,7 +8,8 @@ use std::fmt::Write;
 /// Numbers that casters leave, in as many buffers as bindings of the device need.
 ///
 /// Where it is drawn or computed, WGSL calls `NAME_load(i) -> u32`, `NAME_store(i, value)` and, atomically,
-/// `NAME_add`, `NAME_max` and `NAME_or(i, value) -> u32`, which return what was there. Lookups call `NAME_load(i)`.
+/// `NAME_add`, `NAME_max` and `NAME_or(i, value) -> u32`, which return what was there. Lookups call
+/// `NAME_load(i)`.
 #[derive(Debug, Clone)]
 pub struct Array {
     /// What the functions' names begin with.
@@ -37,8 +38,9 @@ pub enum Element {
     Corners,
 }
 
-/// A texture of `u32` that is written in storage passes: `NAME_store(at: vec2u, layer: u32, value: u32)`, with the
-/// layers of one view; `NAME_size() -> vec2u`. Lookups call `NAME_load(view: u32, at: vec2u, layer: u32) -> u32`.
+/// A texture of `u32` that is written in storage passes: `NAME_store(at: vec2u, layer: u32, value: u32)`,
+/// with the layers of one view; `NAME_size() -> vec2u`. Lookups call `NAME_load(view: u32, at: vec2u, layer:
+/// u32) -> u32`.
 #[derive(Debug, Clone)]
 pub struct Image {
     /// What the functions' names begin with.

@@ -2,23 +2,20 @@
 
 use crate::error::{SettingError, Unsupported};
 
-/// Memory that a [`ShadowMap`](crate::ShadowMap) allocates for triangles, where its technique keeps them by
-/// id: those whose [`caster`](crate::Description::caster) is [`Caster::Lists`] or [`Caster::Ranked`]. All
-/// others ignore it.
+/// Memory that a [`ShadowMap`](crate::ShadowMap) allocates for triangles, where its technique
+/// [keeps them by id](crate::technique::CasterStorage::keeps_ids). All others ignore it.
 ///
 /// It follows from the scene. Triangles beyond it cast no shadow;
 /// [`ShadowMap::triangles_drawn`](crate::ShadowMap::triangles_drawn) and
-/// [`ShadowMap::list_totals`](crate::ShadowMap::list_totals) tell what a scene needed.
-///
-/// [`Caster::Lists`]: crate::technique::Caster::Lists
-/// [`Caster::Ranked`]: crate::technique::Caster::Ranked
+/// [`ShadowMap::abuffer_totals`](crate::ShadowMap::abuffer_totals) tell what a scene needed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Capacity {
     /// Triangles of one view, 1 to 2³⁰: those of the scene, or twice as many under a spot, which may cut each
     /// in two. 48 bytes each in every view. By default 524,288.
     pub triangles: u32,
     /// Length of a texel's list on average over the map, 1 or more, where all triangles are listed
-    /// ([`Caster::Lists`](crate::technique::Caster::Lists)). 4 bytes each in every texel. By default 6.
+    /// ([`CasterStorage::ABuffer`](crate::technique::CasterStorage::ABuffer)). 4 bytes each in every texel. By
+    /// default 6.
     pub triangles_per_texel: u32,
 }
 

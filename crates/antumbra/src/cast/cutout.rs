@@ -10,9 +10,10 @@ pub struct CutoutCaster {
 }
 
 impl ShadowMap {
-    /// For casters with holes, where the technique's caster is not [`Caster::Depth`](crate::technique::Caster::Depth): what
-    /// [`CasterPass::draw_cutout`](crate::CasterPass::draw_cutout) draws them with, with the caller's
-    /// own bindings, described by `layouts`, from group 2 on.
+    /// For casters with holes, where the technique's storage is not
+    /// [`CasterStorage::Depth`](crate::technique::CasterStorage::Depth): what
+    /// [`CasterPass::draw_cutout`](crate::CasterPass::draw_cutout) draws them with, with the caller's own
+    /// bindings, described by `layouts`, from group 2 on.
     ///
     /// `wgsl` declares them and defines `caster_covers(triangle: u32, weights: vec3f) -> bool`: whether
     /// a triangle of the mesh, counted from the first index, stops light where its corners have these
@@ -21,10 +22,11 @@ impl ShadowMap {
     /// next to the texel's centre: holes have the map's resolution, edges of their triangles
     /// sub-texel precision, and a texel with holes says nothing about its neighbours.
     ///
-    /// Where lookups ask ([`asks_about_cutouts`](Self::asks_about_cutouts)) every texel keeps all triangles that
-    /// touch it, holes or not, and receivers see through the holes themselves, at any size of the map. Then
-    /// `wgsl` also defines `caster_tag(triangle: u32) -> u32`, any number that `shadow_covers` will need to know the
-    /// triangle by, such as its material's, and `caster_covers` tells of the centres of texels alone.
+    /// Where lookups ask ([`asks_about_cutouts`](Self::asks_about_cutouts)) every texel keeps all triangles
+    /// that touch it, holes or not, and receivers see through the holes themselves, at any size of the map.
+    /// Then `wgsl` also defines `caster_tag(triangle: u32) -> u32`, any number that `shadow_covers` will need
+    /// to know the triangle by, such as its material's, and `caster_covers` tells of the centres of texels
+    /// alone.
     ///
     /// `None` if casters are depth.
     ///

@@ -1,16 +1,16 @@
-//! The k-buffer: the first triangles that touch each texel, for [`Caster::Ranked`]. An atomic maximum for each
-//! entry of a texel passes the lesser key on to the next entry, so that all end in order, whatever order
-//! fragments come in.
+//! The k-buffer: the first triangles that touch each texel, for [`CasterStorage::KBuffer`]. An atomic maximum
+//! for each entry of a texel passes the lesser key on to the next entry, so that all end in order, whatever
+//! order fragments come in.
 //!
-//! [`Caster::Ranked`]: crate::technique::Caster::Ranked
+//! [`CasterStorage::KBuffer`]: crate::technique::CasterStorage::KBuffer
 
 use super::{Array, Element, Site, Step, Store, refused};
 use crate::error::Unsupported;
 
-/// The first `capacity` triangles of each texel.
+/// The first `k` triangles of each texel.
 #[derive(Debug)]
 pub(super) struct KBuffer {
-    pub(super) capacity: u32,
+    pub(super) k: u32,
 }
 
 impl Store for KBuffer {
@@ -23,7 +23,7 @@ impl Store for KBuffer {
             name: "kbuffer_keys",
             title: "keys",
             element: Element::Word,
-            length: site.texels() * u64::from(self.capacity),
+            length: site.texels() * u64::from(self.k),
             per_view: true,
             cleared: true,
             looked_up: true,
@@ -31,7 +31,7 @@ impl Store for KBuffer {
     }
 
     fn steps(&self, site: &Site<'_>) -> Vec<Step> {
-        vec![Step::Draw { words: [self.capacity, site.capacity.id_bits()] }]
+        vec![Step::Draw { words: [self.k, site.capacity.id_bits()] }]
     }
 
     fn needs(&self) -> &'static [&'static str] {
@@ -58,12 +58,12 @@ impl Store for KBuffer {
     fn explain(&self, site: &Site<'_>) -> String {
         format!(
             "{} triangles per texel, of {} different ones in each view; triangles_drawn() tells whether that was enough, Options::capacity sets it",
-            self.capacity, site.capacity.triangles
+            self.k, site.capacity.triangles
         )
     }
 
     fn check(&self, site: &Site<'_>) -> Result<(), Unsupported> {
-        match self.capacity {
+        match self.k {
             0 => refused(site.technique, "0 triangles per texel".into(), "keep at least one".into()),
             _ => Ok(()),
         }

@@ -15,11 +15,11 @@ const DRAWN_TOGETHER: u32 = 2048;
 /// Bytes of a vertex and of the indices of a triangle.
 const BYTES: u64 = 12;
 
-/// Triangles that cast shadows for a technique whose caster is not [`Caster::Depth`]: positions and
+/// Triangles that cast shadows for a technique whose storage is not [`CasterStorage::Depth`]: positions and
 /// indices that the library's vertex shader reads from storage buffers, so that it sees whole
 /// triangles. [`CasterPass::draw_mesh`](crate::CasterPass::draw_mesh) draws them.
 ///
-/// [`Caster::Depth`]: crate::technique::Caster::Depth
+/// [`CasterStorage::Depth`]: crate::technique::CasterStorage::Depth
 #[derive(Debug)]
 pub struct CasterMesh {
     place: Buffer,

@@ -2,7 +2,7 @@
 
 use super::{CasterMesh, CutoutCaster, Seen, views::perspective};
 use crate::{
-    describe::{Caster, Description},
+    describe::{CasterStorage, Description},
     error::CasterError,
     light::View,
 };
@@ -55,12 +55,12 @@ impl<'a> CasterPass<'a> {
         self.index
     }
 
-    /// Draws the triangles of a mesh, or a range of them, counted from the first index (`..`, `0..12`). What lies
-    /// outside those that the mesh was [made](CasterMesh::new) of is left out. Three vertices per triangle, six
-    /// under a spot, whose triangles may have to be cut.
+    /// Draws the triangles of a mesh, or a range of them, counted from the first index (`..`, `0..12`). What
+    /// lies outside those that the mesh was [made](CasterMesh::new) of is left out. Three vertices per
+    /// triangle, six under a spot, whose triangles may have to be cut.
     ///
-    /// Sets whatever it needs, so that it may follow cut-outs and the caller's own commands. Where the technique
-    /// keeps depth nothing is drawn, and `encode` says so.
+    /// Sets whatever it needs, so that it may follow cut-outs and the caller's own commands. Where the
+    /// technique keeps depth nothing is drawn, and `encode` says so.
     pub fn draw_mesh(&mut self, mesh: &CasterMesh, triangles: impl RangeBounds<u32>) {
         let Some(MeshPipeline { pipeline, indexed, .. }) = self.meshes else {
             self.drawn.meshes = true;
@@ -175,7 +175,7 @@ impl Drawn {
     /// Whether that is what the technique keeps. Nothing at all is: there may be no casters.
     pub(crate) fn check(self, description: &Description) -> Result<(), CasterError> {
         let name = || description.about.name.to_string();
-        let depth = description.caster == Caster::Depth;
+        let depth = description.storage == CasterStorage::Depth;
         match self {
             Self { meshes: true, .. } if depth => Err(CasterError::Mesh { technique: name() }),
             Self { meshes: false, otherwise: true } if !depth => {

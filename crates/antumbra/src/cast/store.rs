@@ -73,9 +73,9 @@ pub enum Step {
 /// A way to keep triangles by id: the vertices of all of them in a table, and for each texel whatever the store
 /// makes of those that touch it.
 ///
-/// The library draws triangles conservatively, keeps their vertices, and binds what the store describes. Its WGSL
-/// reads and writes [`Array`]s and [`Image`]s by functions whose names begin with theirs; the library writes those that
-/// are called.
+/// The library draws triangles conservatively, keeps their vertices, and binds what the store describes. Its
+/// WGSL reads and writes [`Array`]s and [`Image`]s by functions whose names begin with theirs; the library
+/// writes those that are called.
 pub trait Store: Debug + Send + Sync {
     /// What begins the names of its items in [`ShadowMap::memory`](crate::ShadowMap::memory).
     fn name(&self) -> &'static str;
@@ -96,10 +96,10 @@ pub trait Store: Debug + Send + Sync {
         &[]
     }
     /// WGSL that draws triangles. It defines `store_triangle(shaped: CasterTriangle, triangle: u32, seen:
-    /// mat3x3f, id: u32) -> CasterTriangle`, which fills the varyings of a triangle; `store_depth(in: CasterTriangle, at: vec2f)
-    /// -> f32`, its depth at a point from corner 0; `store_keeps_vertices() -> bool`, whether this step keeps
-    /// vertices; and the entry point `fragment`, which calls `caster_touch(in)`, and `vertices_keep_all(in)` for
-    /// triangles that it keeps.
+    /// mat3x3f, id: u32) -> CasterTriangle`, which fills the varyings of a triangle; `store_depth(in:
+    /// CasterTriangle, at: vec2f) -> f32`, its depth at a point from corner 0; `store_keeps_vertices() ->
+    /// bool`, whether this step keeps vertices; and the entry point `fragment`, which calls
+    /// `caster_touch(in)`, and `vertices_keep_all(in)` for triangles that it keeps.
     fn wgsl(&self) -> &'static str;
     /// WGSL through which the technique looks up what is kept. `shadow_corner(view: u32, id: u32, corner: u32)
     /// -> vec3f` and `shadow_stops(view: u32, id: u32, a: vec3f, b: vec3f, c: vec3f) -> bool`, whether the ray
@@ -109,7 +109,7 @@ pub trait Store: Debug + Send + Sync {
     fn keeps_depth(&self) -> bool {
         false
     }
-    /// The array that [`ShadowMap::list_totals`](crate::ShadowMap::list_totals) gives, if any.
+    /// The array that [`ShadowMap::abuffer_totals`](crate::ShadowMap::abuffer_totals) gives, if any.
     fn totals(&self) -> Option<&'static str> {
         None
     }

@@ -1,7 +1,7 @@
 //! A technique with its settings on a device, as data.
 
 use super::{
-    About, Binding, Caster, Class, Constant, DepthSpace, Setting,
+    About, Binding, CasterStorage, Class, Constant, DepthSpace, Setting,
     map::{Encode, Map},
 };
 use crate::{
@@ -37,8 +37,8 @@ pub struct Description {
     /// The blur of the maps, if the WGSL asks `shadow_blur(view: u32) -> f32` for its variance in a
     /// view, in squares of texels.
     pub blur: Option<Adaptive>,
-    /// What the casters leave.
-    pub caster: Caster,
+    /// What is kept of the casters.
+    pub storage: CasterStorage,
     /// Where within a texel the casters are sampled: one caster pass per view for each offset, in texels
     /// from the centre, y down. Several passes fill the channels of the first map in turn, layer by
     /// layer, each with what the encode function makes of its depth.
@@ -86,7 +86,7 @@ impl Description {
             settings: Vec::new(),
             widths: Vec::new(),
             blur: None,
-            caster: Caster::Depth,
+            storage: CasterStorage::Depth,
             sample_offsets: vec![Vec2::ZERO],
             maps: Vec::new(),
             bindings: Vec::new(),
@@ -176,13 +176,13 @@ impl Description {
     /// textures of lists, or the depth and buffers of ranked triangles. Depth is projected, in which triangles
     /// are planes under any light.
     #[must_use]
-    pub fn triangles(about: About, wgsl: impl Into<Cow<'static, str>>, caster: Caster) -> Self {
-        let kept = Self { caster, depth_space: DepthSpace::Raster, ..Self::new(about, wgsl) };
+    pub fn triangles(about: About, wgsl: impl Into<Cow<'static, str>>, storage: CasterStorage) -> Self {
+        let kept = Self { storage, depth_space: DepthSpace::Raster, ..Self::new(about, wgsl) };
         // Distance of 32-bit floats below 1, where a spot's projected depths crowd.
         let rays = |kept| Self { bias: BiasTerms::RAYS, depth_quantum: f32::EPSILON / 2.0, ..kept };
-        match caster {
-            Caster::Depth => Self { bindings: vec![Binding::Depth], ..kept },
-            Caster::Triangles(layers) => {
+        match storage {
+            CasterStorage::Depth => Self { bindings: vec![Binding::Depth], ..kept },
+            CasterStorage::NearestTriangle(layers) => {
                 let encode = Encode::Texel("packing_texel");
                 let map = Map::new("triangles", wgpu::TextureFormat::Rgba32Uint, encode);
                 Self {
@@ -192,10 +192,10 @@ impl Description {
                     ..kept
                 }
             }
-            Caster::Lists => rays(kept),
+            CasterStorage::ABuffer => rays(kept),
             #[cfg(feature = "store")]
-            Caster::Own(_) => rays(kept),
-            Caster::Ranked { .. } => rays(Self { bindings: vec![Binding::Depth], ..kept }),
+            CasterStorage::Own(_) => rays(kept),
+            CasterStorage::KBuffer { .. } => rays(Self { bindings: vec![Binding::Depth], ..kept }),
         }
     }
 

@@ -96,7 +96,7 @@ impl ShadowMap {
             }
             None => options.clone(),
         };
-        let asks = options.cutouts && description.caster.keeps_ids();
+        let asks = options.cutouts && description.storage.keeps_ids();
         let composition = Composition::new(description, asks)?;
         let description = &composition.description;
         check::device(device, description, options)?;

@@ -2,7 +2,7 @@
 
 use super::{Depth, Options, uniforms};
 use crate::{
-    describe::{Caster, Description},
+    describe::{CasterStorage, Description},
     error::Unsupported,
     light::Size,
 };
@@ -51,8 +51,8 @@ pub(super) fn device(
 
 /// Whether depth is all that the casters leave, if that is what the caller has.
 pub(super) fn caster(description: &Description, depth: Option<&Depth<'_>>) -> Result<(), Unsupported> {
-    match (description.caster, depth) {
-        (Caster::Depth, _) | (_, None) => Ok(()),
+    match (description.storage, depth) {
+        (CasterStorage::Depth, _) | (_, None) => Ok(()),
         (_, Some(_)) => Err(Unsupported::Triangles { technique: description.about.name.into() }),
     }
 }

@@ -8,17 +8,18 @@ use crate::{
 use std::sync::atomic::Ordering;
 
 impl ShadowMap {
-    /// Draws the casters of every view and filters what they leave. `draw` gets a pass with a depth attachment of
-    /// [`DEPTH_FORMAT`](crate::DEPTH_FORMAT), cleared to 1, and no colour, which knows its
+    /// Draws the casters of every view and filters what they leave. `draw` gets a pass with a depth
+    /// attachment of [`DEPTH_FORMAT`](crate::DEPTH_FORMAT), cleared to 1, and no colour, which knows its
     /// [`view`](CasterPass::view); a technique that draws casters several times asks for each of
     /// [`caster_views`](Self::caster_views).
     ///
-    /// Where the technique's [`caster`](crate::Description::caster) is
-    /// [`Caster::Depth`](crate::technique::Caster::Depth), pipelines of the caller's own draw; casters in front of the
-    /// near plane must be clamped (`unclipped_depth`) or moved ([`CASTER_WGSL`](crate::CASTER_WGSL)) onto it. Else
-    /// [`CasterPass::draw_mesh`] does, and `draw` is called once per layer of
-    /// [`Caster::Triangles`](crate::technique::Caster::Triangles), twice for
-    /// [`Caster::Lists`](crate::technique::Caster::Lists).
+    /// Where the technique's [`storage`](crate::Description::storage) is
+    /// [`CasterStorage::Depth`](crate::technique::CasterStorage::Depth), pipelines of the caller's own draw;
+    /// casters in front of the near plane must be clamped (`unclipped_depth`) or moved
+    /// ([`CASTER_WGSL`](crate::CASTER_WGSL)) onto it. Else [`CasterPass::draw_mesh`] does, and `draw` is
+    /// called once per layer of
+    /// [`CasterStorage::NearestTriangle`](crate::technique::CasterStorage::NearestTriangle), twice for
+    /// [`CasterStorage::ABuffer`](crate::technique::CasterStorage::ABuffer).
     ///
     /// # Errors
     /// [`CasterError`] if what was drawn is not what the technique keeps. All passes are encoded
@@ -46,7 +47,7 @@ impl ShadowMap {
             return Err(CasterError::Brought { technique: self.description().about.name.into() });
         }
         let mut drawn = Drawn::default();
-        let keeps_ids = self.description().caster.keeps_ids();
+        let keeps_ids = self.description().storage.keeps_ids();
         let mut draw = |pass: &mut CasterPass<'_>| {
             draw(pass);
             drawn.add(pass);

@@ -35,7 +35,7 @@ impl Composition {
         options: &Options,
     ) -> Result<Self, Unsupported> {
         let description = technique.describe(device)?;
-        let asks = options.cutouts && description.caster.keeps_ids();
+        let asks = options.cutouts && description.storage.keeps_ids();
         Self::new(description, asks)
     }
 

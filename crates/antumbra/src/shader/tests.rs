@@ -33,7 +33,7 @@ fn variants() -> Vec<Box<dyn Technique>> {
 /// What is composed of a technique.
 fn composed(technique: &dyn Technique, device: &Capabilities, asks: bool) -> Composition {
     let description = technique.describe(device).unwrap();
-    let asks = asks && description.caster.keeps_ids();
+    let asks = asks && description.storage.keeps_ids();
     Composition::new(description, asks).unwrap()
 }
 

@@ -10,7 +10,7 @@
 //! Story 2015, "Hybrid Ray-Traced Shadows" (Game Developers Conference); the k-buffer of Bavoil et al.
 //! 2007.
 
-use super::{About, Caster, Class, Constant, Description, Family, Technique};
+use super::{About, CasterStorage, Class, Constant, Description, Family, Technique};
 use crate::{
     capabilities::Capabilities,
     error::Unsupported,
@@ -67,7 +67,7 @@ impl Technique for Dpm {
         ]
     }
     fn describe(&self, _: &Capabilities) -> Result<Description, Unsupported> {
-        let caster = Caster::Ranked { keeps: self.keeps };
+        let storage = CasterStorage::KBuffer { k: self.keeps };
         Ok(Description {
             constants: vec![
                 Constant::Count("dpm_keeps", self.keeps),
@@ -78,7 +78,7 @@ impl Technique for Dpm {
             filter_radius_texels: 1.5,
             // Those of a full texel, with its centre.
             fetches: 4 * self.keeps + 1,
-            ..Description::triangles(self.about(), include_str!("dpm.wgsl"), caster)
+            ..Description::triangles(self.about(), include_str!("dpm.wgsl"), storage)
         })
     }
     fn variants(&self) -> Vec<&'static str> {

@@ -4,13 +4,13 @@
 //! The answer is that of a ray through the same triangles, up to the rounding of 32-bit coordinates;
 //! the size of the map decides how fast it comes, not what it is. Casters are drawn twice, to count and
 //! to fill the lists. Memory is allocated once, for the map's [`Capacity`]; triangles beyond that are left
-//! out, and light leaks there ([`ShadowMap::list_totals`](crate::ShadowMap::list_totals) tells). Holes of cut-out casters have the
+//! out, and light leaks there ([`ShadowMap::abuffer_totals`](crate::ShadowMap::abuffer_totals) tells). Holes of cut-out casters have the
 //! resolution of the map, unless lookups ask about them ([`Options::cutouts`](crate::Options)): then that of their
 //! images.
 //!
 //! What Lecocq et al. 2014, "Sub-Pixel Shadow Mapping", §3.1, call intractable.
 
-use super::{About, Caster, Description, Family, Technique};
+use super::{About, CasterStorage, Description, Family, Technique};
 use crate::{
     capabilities::Capabilities, error::Unsupported, cast::Capacity, parameter::Parameter,
 };
@@ -37,7 +37,7 @@ impl Technique for Exact {
         Ok(Description {
             // Those of a list that fills the default capacity.
             fetches: 2 + 4 * Capacity::default().triangles_per_texel,
-            ..Description::triangles(self.about(), include_str!("exact.wgsl"), Caster::Lists)
+            ..Description::triangles(self.about(), include_str!("exact.wgsl"), CasterStorage::ABuffer)
         })
     }
     fn clone_box(&self) -> Box<dyn Technique> {

@@ -8,7 +8,7 @@
 //!
 //! Dai, Yang, Feng 2008, "Reconstructable Geometry Shadow Maps".
 
-use super::{About, Caster, Constant, Coverage, Description, Family, Technique, spsm::Packing};
+use super::{About, CasterStorage, Constant, Coverage, Description, Family, Technique, spsm::Packing};
 use crate::{
     capabilities::Capabilities,
     error::Unsupported,
@@ -77,7 +77,7 @@ impl Technique for Rgsm {
         ]
     }
     fn describe(&self, _: &Capabilities) -> Result<Description, Unsupported> {
-        let caster = Caster::Triangles(&[Coverage::Centre]);
+        let caster = CasterStorage::NearestTriangle(&[Coverage::Centre]);
         Ok(Description {
             slots: self.packing.slots(),
             constants: vec![

@@ -11,7 +11,7 @@
 //!
 //! Lecocq, Marvie, Sourimant, Gautron 2014, "Sub-Pixel Shadow Mapping".
 
-use super::{About, Caster, Class, Constant, Coverage, Description, Family, Technique};
+use super::{About, CasterStorage, Class, Constant, Coverage, Description, Family, Technique};
 use crate::{
     capabilities::Capabilities,
     error::Unsupported,
@@ -102,7 +102,7 @@ impl Technique for Spsm {
     }
     fn describe(&self, _: &Capabilities) -> Result<Description, Unsupported> {
         let caster =
-            Caster::Triangles(&[Coverage::Touched, Coverage::Centre][..self.layers.min(2) as usize]);
+            CasterStorage::NearestTriangle(&[Coverage::Touched, Coverage::Centre][..self.layers.min(2) as usize]);
         Ok(Description {
             slots: self.packing.slots(),
             constants: vec![

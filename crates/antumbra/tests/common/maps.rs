@@ -2,7 +2,7 @@
 
 use super::{depth::repeat_layers, floats, kept, view};
 use antumbra::{
-    Capabilities, CasterMesh, NoProbe, Options, ShadowMap, Size, Technique, View, technique::Caster,
+    Capabilities, CasterMesh, NoProbe, Options, ShadowMap, Size, Technique, View, technique::CasterStorage,
 };
 use antumbra_testing::Gpu;
 use glam::{Mat4, Vec3};
@@ -31,7 +31,7 @@ pub fn shadow_map_of(
 ) -> ShadowMap {
     let options = options.pipelines(&kept(gpu).pipelines);
     let described = technique.describe(&Capabilities::of(&gpu.device)).unwrap();
-    if described.caster != Caster::Depth {
+    if described.storage != CasterStorage::Depth {
         return triangle_map(gpu, technique, depth, options, views);
     }
     // Depth that was made for one caster pass serves all of them.

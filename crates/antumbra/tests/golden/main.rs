@@ -15,7 +15,7 @@ mod scene;
 
 use antumbra::{
     Capabilities, Technique, technique,
-    technique::{Bias, Caster},
+    technique::{Bias, CasterStorage},
 };
 use antumbra_testing::{
     Gpu, Trials,
@@ -58,8 +58,8 @@ fn main() {
     for name in technique::all().iter().map(|t| t.about().name) {
         trials.add(format!("{name}: picture"), move |gpu| {
             let image = Image::grey(SIDE, &picture(gpu, name, Bias::Auto));
-            let triangles = technique::parse(name).unwrap().describe(&Capabilities::full()).unwrap().caster
-                != Caster::Depth;
+            let triangles = technique::parse(name).unwrap().describe(&Capabilities::full()).unwrap().storage
+                != CasterStorage::Depth;
             let tolerance = if triangles && !gpu.is_software() { ON_EDGES } else { TOLERANCE };
             image.compare_with_reference(&path(name), tolerance).unwrap();
         });

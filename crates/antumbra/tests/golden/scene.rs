@@ -3,7 +3,7 @@
 use crate::common::{self, Receiver, depth_layers, shadow_map, visibility};
 use antumbra::{
     Capabilities, Options, ShadowMap, Size, Technique, technique,
-    technique::{Bias, Caster},
+    technique::{Bias, CasterStorage},
 };
 use antumbra_testing::Gpu;
 use glam::{Vec2, Vec3};
@@ -102,7 +102,7 @@ pub(crate) fn behind(
 
 pub(crate) fn picture(gpu: &Gpu, spec: &str, bias: Bias) -> Vec<f32> {
     let technique = technique::parse(spec).unwrap();
-    if technique.describe(&Capabilities::full()).unwrap().caster != Caster::Depth {
+    if technique.describe(&Capabilities::full()).unwrap().storage != CasterStorage::Depth {
         return behind(gpu, spec, SIZE.into(), &triangles(), &receivers());
     }
     picture_of(gpu, technique.as_ref(), bias)

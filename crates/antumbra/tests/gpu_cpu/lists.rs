@@ -138,7 +138,7 @@ pub(super) fn overlapping(triangles: &[[Vec3; 3]], texel: usize, half: f64) -> B
 
 /// Totals of both views.
 fn totals(gpu: &Gpu, shadows: &ShadowMap) -> Vec<u32> {
-    let bytes = gpu.read_buffer(shadows.list_totals().unwrap());
+    let bytes = gpu.read_buffer(shadows.abuffer_totals().unwrap());
     bytes.chunks_exact(4).map(|b| u32::from_ne_bytes([b[0], b[1], b[2], b[3]])).collect()
 }
 

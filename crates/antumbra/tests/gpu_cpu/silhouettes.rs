@@ -3,7 +3,7 @@
 use crate::common::{Random, Receiver, caster_mesh, view, visibility};
 use antumbra::{
     CasterMesh, CasterPass, CutoutCaster, ShadowMap, Size, Technique,
-    technique::{self, Caster, Coverage},
+    technique::{self, CasterStorage, Coverage},
 };
 use antumbra_testing::{Gpu, broken::Broken};
 use glam::{Vec2, Vec3};
@@ -158,7 +158,7 @@ pub(crate) fn fine_meshes(gpu: &Gpu) {
         (
             "triangles at centres",
             MOST,
-            Broken::new("spsm").with(|described| described.caster = Caster::Triangles(CENTRES)),
+            Broken::new("spsm").with(|described| described.storage = CasterStorage::NearestTriangle(CENTRES)),
         ),
     ];
     for (what, most, broken) in broken {

@@ -4,7 +4,7 @@ use crate::{
     cases::{SIZE, all_of, blocks, described, receivers, setting, try_set},
     common::{self, Random, Receiver, depth_layers, depth_texture, shadow_map, shadow_map_of, visibility},
 };
-use antumbra::{Capacity, Options, Technique, View, technique::Caster};
+use antumbra::{Capacity, Options, Technique, View, technique::CasterStorage};
 use antumbra_testing::Gpu;
 use glam::{Mat4, Vec3};
 
@@ -49,8 +49,8 @@ pub(crate) fn darkens_with_depth(gpu: &Gpu, technique: &dyn Technique) -> Result
     }
     let shadows = shadow_map(gpu, technique, &depth_texture(gpu, SIZE, blocks(3, 3)), SIZE.into());
     // Silhouettes of triangles that are not kept are guesses, which differ with what is in front.
-    let centred = |r: Receiver| match described.caster {
-        Caster::Triangles(_) => Receiver { uv: ((r.uv * 64.0).floor() + 0.5) / 64.0, ..r },
+    let centred = |r: Receiver| match described.storage {
+        CasterStorage::NearestTriangle(_) => Receiver { uv: ((r.uv * 64.0).floor() + 0.5) / 64.0, ..r },
         _ => r,
     };
     let deeper = |r: Receiver| (0..STEPS).map(move |i| Receiver { depth: i as f32 / STEPS as f32, ..r });
