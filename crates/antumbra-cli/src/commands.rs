@@ -2,10 +2,10 @@
 
 use crate::{
     arguments::{Arguments, Command, SceneAction},
-    completion, names,
+    completion, names, output,
 };
 use antumbra::SettingError;
-use antumbra_lab::results::LeftOut;
+use antumbra_lab::results::{LeftOut, RunFacts};
 use anyhow::Result;
 use std::io::Write;
 
@@ -50,6 +50,12 @@ pub(crate) fn run(arguments: Arguments) -> Result<()> {
 fn command_given() -> Vec<String> {
     let arguments = std::env::args_os().skip(1).map(|argument| argument.to_string_lossy().into_owned());
     std::iter::once("antumbra".to_string()).chain(arguments).collect()
+}
+
+/// Says what makes results less than they could be, and which techniques were left out.
+fn note_run(run: &RunFacts, left_out: &[LeftOut]) {
+    run.notes.iter().for_each(|text| output::note(text));
+    note_left_out(left_out);
 }
 
 /// Says which techniques were left out, and why.

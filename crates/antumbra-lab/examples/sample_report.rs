@@ -363,6 +363,7 @@ fn results(truth: &Truth, techniques: Vec<TechniqueResult>) -> Result<Results, B
                 device_type: "none".into(),
                 features: vec!["float32-filterable".into(), "timestamp-query".into()],
             },
+            notes: Vec::new(),
         },
         cascades: None,
         truth: TruthFacts {

@@ -66,6 +66,7 @@ pub(crate) fn run(gpu: &Gpu, session: &Session<'_>, command: Vec<String>) -> Res
         bias: shot.bias.to_string(),
         views: views(session.views()),
         adapter: adapter(gpu),
+        notes: session.notes(),
     })
 }
 

@@ -192,6 +192,20 @@ impl<'g> Session<'g> {
         &self.left_out
     }
 
+    /// What makes results less than they could be: one sentence each.
+    #[must_use]
+    pub fn notes(&self) -> Vec<String> {
+        let Some(reason) = self.scene.coarse_cutouts() else { return Vec::new() };
+        let shadows = self.prepared.iter().map(|prepared| &prepared.shadows);
+        let asking = shadows.filter(|shadows| shadows.description().storage.keeps_ids());
+        let specs: Vec<String> = asking.map(|shadows| technique::spec(shadows.technique())).collect();
+        if specs.is_empty() {
+            return Vec::new();
+        }
+        let specs = specs.join(", ");
+        vec![format!("{specs}: holes of cut-outs are as coarse as the texels of maps, since {reason}")]
+    }
+
     /// Leaves out techniques whose maps had no memory for all triangles.
     pub fn leave_out_invalid(&mut self) {
         let (invalid, valid) = self.prepared.drain(..).partition(|p| p.invalid().is_some());

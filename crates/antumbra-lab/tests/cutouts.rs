@@ -9,10 +9,12 @@ use antumbra::{
     Capacity,
     technique::{self, Bias},
 };
+use antumbra_lab::{gpu::Gpu, session::Session, shot::Shot};
 use antumbra_scene::{AlphaMode, Camera, Image, Instance, Light, Material, Mesh, Projection, Scene};
 use antumbra_testing::Trials;
 use common::{Picture, score};
 use glam::{DMat4, Mat4, Vec2, Vec3, Vec4};
+use std::sync::Arc;
 
 const RESOLUTION: [u32; 2] = [256, 192];
 /// Texels along a side of maps: each leaf is two or three of them wide.
@@ -42,7 +44,44 @@ fn main() {
             assert!(found < 0.99, "{found}");
         });
     }
+    trials.add("coarse holes are told", coarse);
     trials.run();
+}
+
+/// A device that binds less than the alphas of the leaves' image says so, where a technique would have asked.
+fn coarse(gpu: &antumbra_testing::Gpu) {
+    let limits = wgpu::Limits {
+        max_storage_buffer_binding_size: 1 << 16,
+        max_color_attachment_bytes_per_sample: 48,
+        ..wgpu::Limits::default()
+    };
+    let small = antumbra_testing::gpu_with(wgpu::Features::empty(), limits).unwrap();
+    let mut scene = leaves(lights()[0].1);
+    scene.images[0] = Image { width: 512, height: 512, rgba: vec![200; 4 << 18], ..scene.images[0].clone() };
+    let shot = Shot {
+        name: scene.name.clone(),
+        geometry: Arc::new(scene.flatten()),
+        tree: Default::default(),
+        camera: scene.main_camera(),
+        light: scene.main_light(),
+        resolution: RESOLUTION,
+        map_size: SIZE,
+        kernel: 3,
+        cascades: 1,
+        bias: Bias::Auto,
+    };
+    let notes = |gpu: &antumbra_testing::Gpu, specs: &[&str]| {
+        let gpu = Gpu::adopt(gpu.device.clone(), gpu.queue.clone(), gpu.info.clone());
+        let techniques: Vec<_> = specs.iter().map(|spec| technique::parse(spec).unwrap()).collect();
+        Session::new(&gpu, &shot, &techniques).unwrap().notes()
+    };
+    let told = notes(&small, &["hard", "exact"]);
+    let [note] = told.as_slice() else { panic!("{told:?}") };
+    for text in ["exact: holes", "alphas of cut-outs' images take 262148 bytes", "binds 65536", "scale"] {
+        assert!(note.contains(text), "{text} is missing in: {note}");
+    }
+    assert_eq!(notes(&small, &["hard"]), [""; 0]);
+    assert_eq!(notes(gpu, &["hard", "exact"]), [""; 0]);
 }
 
 /// Share of pixels that show what rays see.

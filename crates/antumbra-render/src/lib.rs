@@ -53,5 +53,5 @@ pub mod views;
 pub use error::RenderError;
 pub use gpu::Gpu;
 pub use lighting::{Lighting, Lookup, Pictures};
-pub use scene::{Casters, GpuScene, ViewMatrices};
+pub use scene::{Casters, CoarseCutouts, GpuScene, ViewMatrices};
 pub use surfaces::Surfaces;

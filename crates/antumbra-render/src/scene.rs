@@ -23,6 +23,7 @@ mod upload;
 
 pub use casters::{Casters, ViewMatrices};
 use frame::Frame;
+pub use masks::CoarseCutouts;
 use masks::Masks;
 use materials::Materials;
 use pipelines::{Group, Pipelines};
@@ -47,6 +48,7 @@ pub struct GpuScene {
     materials: Materials,
     /// `None` where lookups cannot ask about cut-outs.
     masks: Option<Masks>,
+    coarse_cutouts: Option<CoarseCutouts>,
     pipelines: Pipelines,
     camera_matrix: Mat4,
     frame: Frame,
@@ -103,6 +105,12 @@ impl GpuScene {
     #[must_use]
     pub fn tells_cutouts(&self) -> bool {
         self.masks.is_some()
+    }
+
+    /// Why lookups cannot ask about the holes of cut-outs although there are some.
+    #[must_use]
+    pub fn coarse_cutouts(&self) -> Option<&CoarseCutouts> {
+        self.coarse_cutouts.as_ref()
     }
 
     /// What lookups that ask about cut-outs bind.

@@ -23,7 +23,7 @@ pub(crate) fn run(arguments: &Bench) -> Result<()> {
         let bar = Bar::new([("upload", 1.0), ("time", f64::from(arguments.rounds)), ("truth", 2.0)]);
         bench::measure(&gpu, &shot, &techniques, arguments.rounds, super::command_given(), &bar)?
     };
-    super::note_left_out(&results.left_out);
+    super::note_run(&results.run, &results.left_out);
     let out = &mut io::stdout();
     if arguments.json {
         writeln!(out, "{}", serde_json::to_string_pretty(&results)?)?;

@@ -92,7 +92,7 @@ fn warn(results: &Results) {
     for (spec, why) in results.techniques.iter().filter_map(|t| Some((&t.spec, t.invalid.as_ref()?))) {
         let _ = writeln!(io::stderr(), "warning: {spec} is invalid: {why}");
     }
-    super::note_left_out(&results.left_out);
+    super::note_run(&results.run, &results.left_out);
 }
 
 fn print(out: &mut impl Write, results: &Results) -> Result<()> {
@@ -166,6 +166,9 @@ fn row(t: &TechniqueResult) -> Vec<String> {
 
 /// What stands below the table.
 fn print_notes(out: &mut impl Write, results: &Results) -> Result<()> {
+    for note in &results.run.notes {
+        writeln!(out, "{note}")?;
+    }
     for technique in results.valid() {
         for class in &technique.classes {
             writeln!(

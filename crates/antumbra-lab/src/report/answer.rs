@@ -98,14 +98,15 @@ pub(super) fn paragraph(results: &Results) -> String {
     )
 }
 
-/// Techniques whose numbers are worth nothing or do not exist, and why.
+/// Notes of the run; techniques whose numbers are worth nothing or do not exist, and why.
 fn missing(results: &Results) -> String {
     let invalid = results.techniques.iter().filter_map(|t| Some((&t.spec, "invalid", t.invalid.as_ref()?)));
     let left_out = results.left_out.iter().map(|l| (&l.spec, "left out", &l.reason));
     let line = |(spec, what, why): (&String, &str, &String)| {
         format!("<p class=\"quiet\"><code>{}</code> {what}: {}.</p>", escape(spec), escape(why))
     };
-    invalid.chain(left_out).map(line).collect()
+    let note = |text: &String| format!("<p class=\"quiet\">{}.</p>", escape(text));
+    results.run.notes.iter().map(note).chain(invalid.chain(left_out).map(line)).collect()
 }
 
 fn other_truths(results: &Results) -> Option<String> {

@@ -140,6 +140,7 @@ pub(crate) fn results() -> Results {
                 device_type: "Cpu".into(),
                 features: vec![],
             },
+            notes: Vec::new(),
         },
         cascades: None,
         truth: TruthFacts {

@@ -25,19 +25,36 @@ pub(crate) struct Masks {
     pub(crate) group: wgpu::BindGroup,
 }
 
+/// Why lookups cannot ask about the holes of cut-outs, which then are as coarse as the texels of maps.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{what} take {bytes} bytes, and {adapter} binds {max} at a time: {remedy}")]
+pub struct CoarseCutouts {
+    what: &'static str,
+    bytes: u64,
+    adapter: String,
+    max: u64,
+    remedy: &'static str,
+}
+
 impl Masks {
-    /// `None` where nothing is masked, or where images hold more texels than a binding: then holes are as
-    /// coarse as the texels of maps.
-    pub(super) fn new(gpu: &Gpu, geometry: &Geometry) -> Option<Self> {
+    /// `None` where nothing is masked.
+    pub(super) fn new(gpu: &Gpu, geometry: &Geometry) -> Result<Option<Self>, CoarseCutouts> {
         let masked = |m: usize| matches!(geometry.materials[m].alpha, AlphaMode::Mask { .. });
-        let first =
-            geometry.groups.iter().filter(|group| masked(group.0)).map(|group| group.1.start).min()?;
+        let groups = geometry.groups.iter().filter(|group| masked(group.0));
+        let Some(first) = groups.map(|group| group.1.start).min() else { return Ok(None) };
         let (masks, alphas) = masks(geometry, first);
         let corners = corners(geometry, first);
         let contents: [&[u8]; 3] = [bytemuck::cast_slice(&masks), &alphas, bytemuck::cast_slice(&corners)];
         let max = gpu.device.limits().max_storage_buffer_binding_size;
-        if contents.iter().any(|bytes| bytes.len() as u64 > max) {
-            return None;
+        let told = [
+            ("cut-outs' materials", "leave out parts of the scene"),
+            ("the alphas of cut-outs' images", "scale the images down"),
+            ("the corners of cut-outs' triangles", "leave out parts of the scene"),
+        ];
+        for ((what, remedy), bytes) in told.into_iter().zip(contents.map(|bytes| bytes.len() as u64)) {
+            if bytes > max {
+                return Err(CoarseCutouts { what, bytes, adapter: gpu.info.name.clone(), max, remedy });
+            }
         }
         let layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("masks"),
@@ -53,7 +70,7 @@ impl Masks {
             layout: &layout,
             entries: &entries,
         });
-        Some(Self { layout, group })
+        Ok(Some(Self { layout, group }))
     }
 }
 

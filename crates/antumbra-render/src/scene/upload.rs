@@ -30,6 +30,8 @@ impl GpuScene {
             masked: matches!(geometry.materials[material].alpha, AlphaMode::Mask { .. }),
             culled: geometry.single_sided && !geometry.materials[material].double_sided,
         };
+        let (masks, coarse_cutouts) =
+            Masks::new(gpu, geometry).map_or_else(|coarse| (None, Some(coarse)), |masks| (masks, None));
         let storage = |label, bytes, usage| gpu.buffer(label, bytes, usage | Usage::STORAGE);
         let scene = Self {
             positions: storage("positions", bytemuck::cast_slice(&geometry.positions), Usage::VERTEX),
@@ -39,7 +41,8 @@ impl GpuScene {
             frame_group: pipelines.uniform_group(gpu, &frame_buffer, size_of::<Frame>()),
             surfaces: Surfaces::new(gpu, resolution, &frame_buffer),
             materials,
-            masks: Masks::new(gpu, geometry),
+            masks,
+            coarse_cutouts,
             pipelines,
             camera_matrix,
             frame,
