@@ -103,13 +103,13 @@ pub enum DescriptionError {
         /// Layers of the first map.
         layers: u32,
     },
-    /// A binding of something that is not kept.
-    #[error("it binds {binding}, for which it needs {needed}")]
-    Binding {
-        /// The binding.
-        binding: String,
-        /// What is missing.
-        needed: &'static str,
+    /// A binding of a map that is not kept.
+    #[error("it binds map {index}, counted from 0, and has {maps}; add the map to Description::maps")]
+    Map {
+        /// Index of the map.
+        index: usize,
+        /// Maps that there are.
+        maps: usize,
     },
 }
 

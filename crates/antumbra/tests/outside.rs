@@ -82,7 +82,7 @@ fn refusals(gpu: &Gpu) {
         (|d| d.wgsl = "//! needs nothing_there".into(), &["'nothing_there'", "lookup_fitted"]),
         (|d| d.slots.clear(), &["slot 'lookup'", "lookup_bilinear", "Description::slots"]),
         (|d| d.constants.push(Constant::Count("own_terms", 2)), &["'own_terms' 0 times", "const own_terms"]),
-        (|d| d.maps.clear(), &["Map(0)", "that many maps"]),
+        (|d| d.maps.clear(), &["binds map 0", "has 0", "Description::maps"]),
         (|d| d.sample_offsets.clear(), &["no sample offsets"]),
     ];
     for (edit, words) in wrong {

@@ -223,13 +223,11 @@ impl Description {
         if self.sample_offsets.is_empty() {
             return Err(DescriptionError::SampleOffsets);
         }
+        let maps = self.maps.len();
         for binding in &self.bindings {
-            let (there, needed) = match binding {
-                Binding::Map(i) => (*i < self.maps.len(), "that many maps"),
-                Binding::Depth | Binding::Compare(_) | Binding::Sampler => continue,
-            };
-            if !there {
-                return Err(DescriptionError::Binding { binding: format!("{binding:?}"), needed });
+            match *binding {
+                Binding::Map(index) if index >= maps => return Err(DescriptionError::Map { index, maps }),
+                Binding::Map(_) | Binding::Depth | Binding::Compare(_) | Binding::Sampler => {}
             }
         }
         // Four passes share a layer.
