@@ -1,9 +1,9 @@
 //! A camera and a sun for scenes that bring none, chosen so that the picture shows shadows.
 //!
-//! Cameras (from outside, or from inside where walls show their front all around) and suns (all around, at three heights) are
-//! tried with rays on a picture of 48×36 pixels. The score of a pair is the share of the picture that can be in
-//! shadow, weighed by how evenly light and shadow divide it; the first pair that comes near the best wins, so
-//! that the usual sun over the left shoulder stays where it does its work.
+//! Cameras (from outside, or from inside where walls show their front all around) and suns (all around, at
+//! three heights) are tried with rays on a picture of 48×36 pixels. The score of a pair is the share of the
+//! picture that can be in shadow, weighed by how evenly light and shadow divide it; the first pair that comes
+//! near the best wins, so that the usual sun over the left shoulder stays where it does its work.
 
 use antumbra_scene::{Aabb, Camera, Geometry, Light, Projection, Scene};
 use antumbra_truth::{CameraRays, Hit, SharedTree, Tracer, TruthError};

@@ -1,12 +1,12 @@
 //! The lab: renders a scene with every technique, scores each against ray-traced truth, times it,
 //! and writes a report.
 //!
-//! Everything starts from a [`shot`]: what is looked at. A [`session`] is a shot on the GPU with techniques that
-//! are ready: it draws, moves and times them with `antumbra-render`. [`truth`] traces what is right with
-//! `antumbra-truth`, [`metrics`] says how far off an answer is, [`timing`] what it costs. [`compare::compare`] does it
-//! all; [`results`] is the outcome as data and [`report`] as a page. [`motion`] moves camera and light, [`flicker`]
-//! measures what then changes by itself. [`curve`] and [`maps`] look at a technique alone, [`bias`] at what keeps it
-//! from shadowing itself; [`chart`] draws curves.
+//! Everything starts from a [`shot`]: what is looked at. A [`session`] is a shot on the GPU with techniques
+//! that are ready: it draws, moves and times them with `antumbra-render`. [`truth`] traces what is right with
+//! `antumbra-truth`, [`metrics`] says how far off an answer is, [`timing`] what it costs.
+//! [`compare::compare`] does it all; [`results`] is the outcome as data and [`report`] as a page. [`motion`]
+//! moves camera and light, [`flicker`] measures what then changes by itself. [`curve`] and [`maps`] look at a
+//! technique alone, [`bias`] at what keeps it from shadowing itself; [`chart`] draws curves.
 
 pub mod animation;
 mod axis;

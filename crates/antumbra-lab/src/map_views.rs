@@ -24,7 +24,8 @@ impl MapViews {
         Self::reaching(views, size, 0.5 * (f64::from(kernel) + 1.0))
     }
 
-    /// The views of maps of `size` × `size` texels, for lookups that read up to `reach` texels around a point.
+    /// The views of maps of `size` × `size` texels, for lookups that read up to `reach` texels around a
+    /// point.
     ///
     /// # Errors
     /// No views.

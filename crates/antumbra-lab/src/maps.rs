@@ -77,9 +77,9 @@ impl Picture {
     }
 }
 
-/// Hands pictures of a session's first technique to `take`, one after the other (large maps would not fit into
-/// memory all at once): linear depth of the casters in each view, then every channel of every layer of every map
-/// at mip level `level`.
+/// Hands pictures of a session's first technique to `take`, one after the other (large maps would not fit
+/// into memory all at once): linear depth of the casters in each view, then every channel of every layer of
+/// every map at mip level `level`.
 ///
 /// # Errors
 /// No technique, a level that a map lacks, a lost device, what `take` returns.

@@ -22,9 +22,9 @@ pub const EDGE_PIXELS: u32 = 2;
 /// the definitions): closer by, blur and aliasing are counted by the other metrics.
 pub const DEEP_PIXELS: u32 = 4;
 
-/// Smallest number of pixels over which leak and over-darkening are given. A mean of n values between 0 and 1 that are
-/// as different as can be is known to ½/√n: to 2.5 % with 400 pixels, a square of 20 × 20. Over fewer, one
-/// small spot decides.
+/// Smallest number of pixels over which leak and over-darkening are given. A mean of n values between 0 and 1
+/// that are as different as can be is known to ½/√n: to 2.5 % with 400 pixels, a square of 20 × 20. Over
+/// fewer, one small spot decides.
 pub const MIN_DEEP_PIXELS: u64 = 400;
 
 /// Tolerance within which a truth counts as fully lit (1) or fully shadowed (0), and by which an
@@ -72,7 +72,8 @@ pub struct Score {
 }
 
 impl Score {
-    /// The same without leak and over-darkening where they are means over fewer than [`MIN_DEEP_PIXELS`] pixels.
+    /// The same without leak and over-darkening where they are means over fewer than [`MIN_DEEP_PIXELS`]
+    /// pixels.
     #[must_use]
     pub fn reliable(self) -> Self {
         Self {

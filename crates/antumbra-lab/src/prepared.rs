@@ -18,7 +18,8 @@ pub struct Prepared {
     pub classes: Option<Lookup>,
     /// Its index among the entries that it was prepared with.
     pub entry: usize,
-    /// What its casters needed when [`draw_maps`](Self::draw_maps) last drew them, if it keeps triangles by id.
+    /// What its casters needed when [`draw_maps`](Self::draw_maps) last drew them, if it keeps triangles by
+    /// id.
     pub occupancy: Option<Occupancy>,
     options: Options,
 }
@@ -51,8 +52,8 @@ impl Prepared {
     }
 
     /// Draws its maps for the views that it was last given. A map with too little memory for the triangles
-    /// that share texels is allocated anew and drawn again; where the device refuses that, shadows are missing,
-    /// which [`invalid`](Self::invalid) tells.
+    /// that share texels is allocated anew and drawn again; where the device refuses that, shadows are
+    /// missing, which [`invalid`](Self::invalid) tells.
     ///
     /// # Errors
     /// If the device is lost.

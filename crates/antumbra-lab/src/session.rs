@@ -85,9 +85,9 @@ impl<'g> Session<'g> {
         Ok(session)
     }
 
-    /// Adds techniques with maps of `map_size` texels, which share the light's views: the margin is that of the
-    /// widest kernel. Maps that keep triangles by id are drawn, so that they have memory for all of them. Techniques
-    /// that the device or the scene refuses are left out.
+    /// Adds techniques with maps of `map_size` texels, which share the light's views: the margin is that of
+    /// the widest kernel. Maps that keep triangles by id are drawn, so that they have memory for all of them.
+    /// Techniques that the device or the scene refuses are left out.
     ///
     /// # Errors
     /// [`Refused`] where none is left; a light or camera without a view; a lost device.
@@ -239,8 +239,8 @@ impl<'g> Session<'g> {
         self.asked(&prepared.lookup, prepared)
     }
 
-    /// What a technique tells apart whose maps are drawn and that answers `visibility`, if it has classes. The
-    /// visibility that [`picture`](Self::picture) takes is lost.
+    /// What a technique tells apart whose maps are drawn and that answers `visibility`, if it has classes.
+    /// The visibility that [`picture`](Self::picture) takes is lost.
     ///
     /// # Errors
     /// If the device is lost.

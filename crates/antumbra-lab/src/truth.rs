@@ -97,8 +97,8 @@ impl<'s> TracedShot<'s> {
         Ok(TruthImage::new(visibility)?)
     }
 
-    /// Parts of the picture where techniques are known to differ: see [`regions::regions`]. `near` is a share of
-    /// the depth range.
+    /// Parts of the picture where techniques are known to differ: see [`regions::regions`]. `near` is a share
+    /// of the depth range.
     ///
     /// # Errors
     /// No views.

@@ -59,8 +59,8 @@ fn main() {
     trials.run();
 }
 
-/// A device whose bindings hold the corners of 16 triangles (the scene has 17), and no buffer more than keeping
-/// triangles takes.
+/// A device whose bindings hold the corners of 16 triangles (the scene has 17), and no buffer more than
+/// keeping triangles takes.
 fn opened() -> Gpu {
     let limits = wgpu::Limits {
         max_storage_buffer_binding_size: 16 * 48,

@@ -1,5 +1,5 @@
-//! Leaves whose every triangle has a twin with the other winding, folded along ribs, with many triangles in a texel:
-//! maps that keep the first few of them shadow lit leaves no more than a plain map does.
+//! Leaves whose every triangle has a twin with the other winding, folded along ribs, with many triangles in a
+//! texel: maps that keep the first few of them shadow lit leaves no more than a plain map does.
 
 #![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
 
@@ -37,7 +37,8 @@ fn main() {
     trials.run();
 }
 
-/// Leaves over the ground, folded along their middle and, `folds` of their length high, along ribs from there.
+/// Leaves over the ground, folded along their middle and, `folds` of their length high, along ribs from
+/// there.
 fn plant(folds: f32) -> Scene {
     let mut meshes = vec![ground()];
     for i in 0..40 {

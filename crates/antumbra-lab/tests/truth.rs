@@ -3,7 +3,8 @@
 //! overhead, casters over casters.
 //!
 //! Bounds are what was measured and a quarter (with `ANTUMBRA_MEASURE=1` the test prints what it
-//! measures); techniques that are broken on purpose must exceed them. Where theory says which of two techniques is better, it must be.
+//! measures); techniques that are broken on purpose must exceed them. Where theory says which of two
+//! techniques is better, it must be.
 
 #![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
 

@@ -38,8 +38,8 @@
 //! # }
 //! ```
 //!
-//! Nothing here waits for the device or reads back, so that all of it runs in browsers too. Whoever measures adds
-//! that (`antumbra-lab`).
+//! Nothing here waits for the device or reads back, so that all of it runs in browsers too. Whoever measures
+//! adds that (`antumbra-lab`).
 
 mod error;
 mod gpu;

@@ -27,8 +27,8 @@ impl Lookup {
         Self::asking(gpu, scene, shadows, shaders::VISIBILITY)
     }
 
-    /// Asks for the class of every surface, if the technique has classes: 0 for none, else 1 + the index of its class,
-    /// or a negative number where there is no surface.
+    /// Asks for the class of every surface, if the technique has classes: 0 for none, else 1 + the index of
+    /// its class, or a negative number where there is no surface.
     #[must_use]
     pub fn classes(gpu: &Gpu, scene: &GpuScene, shadows: &ShadowMap) -> Option<Self> {
         let any = !shadows.description().classes.is_empty();

@@ -81,15 +81,15 @@ impl GpuScene {
         (self.frame, self.camera_matrix) = (frame, matrix);
     }
 
-    /// Moves the points of the picture plane at which surfaces are seen by `offset` pixels, x to the right and
-    /// y down, from the pixels' centres.
+    /// Moves the points of the picture plane at which surfaces are seen by `offset` pixels, x to the right
+    /// and y down, from the pixels' centres.
     pub(crate) fn shift(&self, gpu: &Gpu, offset: Vec2) {
         let frame = self.frame.shifted(offset, self.surfaces.resolution());
         gpu.queue.write_buffer(&self.frame_buffer, 0, bytemuck::bytes_of(&frame));
     }
 
-    /// Memory that a shadow map of this scene needs for triangles. How many of them share a texel is not known
-    /// before they are drawn.
+    /// Memory that a shadow map of this scene needs for triangles. How many of them share a texel is not
+    /// known before they are drawn.
     #[must_use]
     pub fn capacity(&self) -> Capacity {
         self.capacity
@@ -124,8 +124,8 @@ impl GpuScene {
         &self.surfaces
     }
 
-    /// Draws every caster into a pass of the shadow map that `casters` were made for. Opaque ones first, in one
-    /// draw.
+    /// Draws every caster into a pass of the shadow map that `casters` were made for. Opaque ones first, in
+    /// one draw.
     pub fn draw_casters(&self, casters: &Casters, pass: &mut CasterPass<'_>) {
         let (mesh, cutout) = match casters {
             Casters::Depth(matrices) => {
@@ -186,8 +186,8 @@ impl GpuScene {
         pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
     }
 
-    /// Draws the id of the triangle that the rasteriser shows in each pixel, plus one; 0 is background. Returns
-    /// the target, words of 32 bits. Its vertices are uploaded for this call.
+    /// Draws the id of the triangle that the rasteriser shows in each pixel, plus one; 0 is background.
+    /// Returns the target, words of 32 bits. Its vertices are uploaded for this call.
     ///
     /// # Errors
     /// Too much geometry.

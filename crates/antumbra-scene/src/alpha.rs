@@ -6,9 +6,9 @@
 //!
 //! Vertex alpha and texture coordinates are interpolated as that formula says, and so are the four texels
 //! around the place `coordinate · size − ½` of the image's base level: `x + fraction · (y − x)` across, then
-//! down. Texels are the `f32` nearest to byte/255, as graphics cards read them, so that a surface whose alpha is
-//! its cutoff throughout stays whole; all else is computed in f64 here. Graphics cards do the same in f32 with
-//! fractions of some 8 bits, so only at the very border do they differ.
+//! down. Texels are the `f32` nearest to byte/255, as graphics cards read them, so that a surface whose alpha
+//! is its cutoff throughout stays whole; all else is computed in f64 here. Graphics cards do the same in f32
+//! with fractions of some 8 bits, so only at the very border do they differ.
 
 use crate::{AlphaMode, Geometry, Image};
 use glam::DVec2;

@@ -30,7 +30,8 @@ impl Scene {
     }
 
     /// A three-quarter view from the front, right and above that sees the whole scene but for
-    /// [strays](Self::strays) in a picture of 4:3 or wider. Scenes without triangles get a view of the unit cube.
+    /// [strays](Self::strays) in a picture of 4:3 or wider. Scenes without triangles get a view of the unit
+    /// cube.
     #[must_use]
     pub fn default_camera(&self) -> Camera {
         let unit = Aabb { min: Vec3::splat(-0.5), max: Vec3::splat(0.5) };

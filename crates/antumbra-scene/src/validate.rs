@@ -142,8 +142,8 @@ impl Scene {
     pub const MAX_TRIANGLES: u64 = (u32::MAX / 3) as u64;
     /// Most vertices that a scene may have, all instances counted.
     pub const MAX_VERTICES: u64 = u32::MAX as u64;
-    /// Farthest that a placed vertex may be from the origin along an axis: what leaves room in `f32` for a camera
-    /// that sees the whole.
+    /// Farthest that a placed vertex may be from the origin along an axis: what leaves room in `f32` for a
+    /// camera that sees the whole.
     pub const MAX_COORDINATE: f32 = 1e36;
 
     /// Checks everything that [`Scene::flatten`] and its users rely on. Zero-area triangles are

@@ -97,8 +97,8 @@ fn head(path: &str) -> String {
     path.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect()
 }
 
-/// Modules that are left when modules that name none of the rest, or that none of the rest names, are taken away
-/// again and again: those in circles, and between them.
+/// Modules that are left when modules that name none of the rest, or that none of the rest names, are taken
+/// away again and again: those in circles, and between them.
 fn circle(graph: &Graph) -> Option<BTreeSet<String>> {
     let mut left: BTreeSet<String> = graph.keys().cloned().collect();
     loop {

@@ -1,5 +1,5 @@
-//! Rules of CONTRIBUTING.md that can be asked: files and functions are short, every program of tests is run, the renderer
-//! never waits.
+//! Rules of CONTRIBUTING.md that can be asked: files and functions are short, every program of tests is run,
+//! the renderer never waits.
 
 #![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
 

@@ -174,12 +174,14 @@ fn mean(tallies: [Option<Tally>; 2]) -> Option<f32> {
 
 impl Tracer<'_> {
     /// The light-space ideal of a filter: visibility averaged over `kernel`, laid out in the map as
-    /// `texels` says where the pixel's point is, with the caster depth from rays; see the [crate's page](crate#the-light-space-ideal).
+    /// `texels` says where the pixel's point is, with the caster depth from rays; see the [crate's
+    /// page](crate#the-light-space-ideal).
     ///
     /// Every pixel gets 64 rays, spread evenly over the kernel; one whose rays disagree, or that has
     /// such a neighbour, gets 256. In penumbrae the root mean square error is then about 0.005 (measured
-    /// on straight edges, for kernels of 1 to 8 taps). Where 64 rays agree, a caster that covers less than some 1/64 of the kernel can have been missed.
-    /// `progress` hears shares in (0,1], from any thread, not always in order.
+    /// on straight edges, for kernels of 1 to 8 taps). Where 64 rays agree, a caster that covers less than
+    /// some 1/64 of the kernel can have been missed. `progress` hears shares in (0,1], from any thread, not
+    /// always in order.
     ///
     /// Cost: 66 to 258 rays per pixel.
     #[must_use]

@@ -1,8 +1,8 @@
 //! Plain text tables that fit the terminal.
 //!
-//! A table that is too wide first breaks its headings at spaces, then the text of its last column, and at last
-//! continues its columns in further blocks, each with the first column again. Where standard output is no
-//! terminal, tables are as wide as their cells.
+//! A table that is too wide first breaks its headings at spaces, then the text of its last column, and at
+//! last continues its columns in further blocks, each with the first column again. Where standard output is
+//! no terminal, tables are as wide as their cells.
 
 use std::io::{self, IsTerminal, Write};
 
@@ -141,7 +141,8 @@ fn blocks(columns: &[Column], width: usize) -> Vec<usize> {
     ends
 }
 
-/// Headings and rows of some columns, each row with the lines of text that stand behind its first cell instead.
+/// Headings and rows of some columns, each row with the lines of text that stand behind its first cell
+/// instead.
 fn block(out: &mut impl Write, columns: &[&Column], across: &[Vec<String>]) -> io::Result<()> {
     let line = |cells: Vec<Option<&String>>| {
         let padded: Vec<String> =

@@ -79,9 +79,9 @@ impl<'a> Recording<'a> {
         Ok(())
     }
 
-    /// Adds a frame to the pictures, and to the series what changed since the frame before: `points` is what is
-    /// right at its points now, `on_points` what techniques answer there if that is not what they answer in
-    /// the picture.
+    /// Adds a frame to the pictures, and to the series what changed since the frame before: `points` is what
+    /// is right at its points now, `on_points` what techniques answer there if that is not what they answer
+    /// in the picture.
     fn compare(&mut self, now: &FrameSample, points: Option<&FrameTruth>, on_points: Option<&[Vec<f32>]>) {
         let prepared = self.session.prepared();
         let pictures = self.pictures.get_or_insert_with(|| Pictures::new(self.request, now, prepared));

@@ -74,8 +74,8 @@ impl Masks {
     }
 }
 
-/// A mask for each material, given the first masked triangle, and the alphas of the images that masked materials
-/// show, in whole words. What has no image shows a single opaque texel.
+/// A mask for each material, given the first masked triangle, and the alphas of the images that masked
+/// materials show, in whole words. What has no image shows a single opaque texel.
 fn masks(geometry: &Geometry, first: u32) -> (Vec<Mask>, Vec<u8>) {
     let mut alphas = vec![u8::MAX; 4];
     let mut starts = BTreeMap::new();

@@ -35,8 +35,8 @@ impl Workbench<'_> {
     }
 }
 
-/// Prepares the techniques of all frames, those with maps of one size together, which share the light's views.
-/// Returns for each frame which of the session's techniques it shows; `None` shades without shadows.
+/// Prepares the techniques of all frames, those with maps of one size together, which share the light's
+/// views. Returns for each frame which of the session's techniques it shows; `None` shades without shadows.
 fn prepare(session: &mut Session<'_>, frames: &[(u32, &str)]) -> Result<Vec<Option<usize>>> {
     let mut by_size: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
     for (i, (map, _)) in frames.iter().enumerate().filter(|(_, (_, spec))| *spec != NONE) {

@@ -51,14 +51,14 @@ pub fn load_with(path: impl AsRef<Path>, options: &Options) -> Result<Scene, Imp
 /// sparse or not, quantised, compressed by meshoptimizer or not; nodes with matrices or TRS, mirrored
 /// or not; GPU instancing; skins and morph targets, at rest or posed by an animation
 /// ([`Options::time`]); base colours (PNG, JPEG, WebP) with their texture transforms, cut-outs
-/// (`MASK`), two-sidedness; perspective and orthographic cameras; directional and spot lights, spots of more than
-/// [`Light::MAX_OUTER_ANGLE`](crate::Light::MAX_OUTER_ANGLE) narrowed to it. Missing normals become
-/// flat ones, as the format demands.
+/// (`MASK`), two-sidedness; perspective and orthographic cameras; directional and spot lights, spots of more
+/// than [`Light::MAX_OUTER_ANGLE`](crate::Light::MAX_OUTER_ANGLE) narrowed to it. Missing normals become flat
+/// ones, as the format demands.
 ///
 /// Changed or left out, with a line in [`Scene::notes`] for each kind: points and lines, hidden nodes,
-/// coarser levels of detail, surfaces that blend or transmit light ([`Blend`]), point lights, images that cannot be had or decoded, animations that are not asked for, extensions
-/// that are not read. Ignored: all material properties but the above, magnification filters (always
-/// linear).
+/// coarser levels of detail, surfaces that blend or transmit light ([`Blend`]), point lights, images that
+/// cannot be had or decoded, animations that are not asked for, extensions that are not read. Ignored: all
+/// material properties but the above, magnification filters (always linear).
 ///
 /// A file that requires an extension that may move triangles and is not read, Draco's among them, is
 /// refused with what converts it.

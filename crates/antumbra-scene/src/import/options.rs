@@ -20,8 +20,8 @@ pub struct Options {
 }
 
 /// What becomes of surfaces that let light through: in glTF those whose `alphaMode` is `BLEND`, and
-/// those that transmit (`KHR_materials_transmission`), in OBJ those that dissolve (`d`, `Tr`). A shadow map holds one depth a texel, so a
-/// point of a surface is there or is not.
+/// those that transmit (`KHR_materials_transmission`), in OBJ those that dissolve (`d`, `Tr`). A shadow map
+/// holds one depth a texel, so a point of a surface is there or is not.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Blend {
     /// A point is there where its alpha is ½ or more, and is no glass that lets half of the light or

@@ -6,7 +6,8 @@ use glam::Vec2;
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Map {
     pub(super) file: String,
-    /// How often the image repeats, and where it begins: u and v of the file times the first, plus the second.
+    /// How often the image repeats, and where it begins: u and v of the file times the first, plus the
+    /// second.
     pub(super) scale: Vec2,
     pub(super) offset: Vec2,
     /// Whether the image repeats.
