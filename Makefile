@@ -16,6 +16,7 @@ demo: setup
 
 test: setup fmt clippy doc check-wasm
 	$(CARGO) test --release --workspace
+	$(CARGO) test --release -p antumbra --features store --test store
 	@echo "not tried here: a browser's compiler, and a second driver (make portability; needs Node)"
 
 bench: setup

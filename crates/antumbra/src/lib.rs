@@ -176,7 +176,8 @@ mod shader;
 mod table;
 pub mod technique;
 
-/// How triangles are kept by id, for stores of one's own. Not settled: minor versions may change it.
+/// How triangles are kept by id, for stores of one's own, which a technique names in
+/// [`CasterStorage::Own`](technique::CasterStorage::Own). Not settled: minor versions may change it.
 #[cfg(feature = "store")]
 pub mod store {
     pub use crate::cast::{Array, Element, Image, OwnStore, Site, Step, Store};

@@ -14,6 +14,7 @@ mod unroll;
 
 pub(crate) use compose::Composition;
 pub use files::CASTER_WGSL;
+pub(crate) use files::check as check_files;
 pub(crate) use files::text as file;
 pub use listing::Shader;
 

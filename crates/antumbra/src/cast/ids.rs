@@ -11,7 +11,7 @@ use crate::{
     describe::Coverage,
     error::Unsupported,
     map::Pipelines,
-    shader::{Shader, ShaderText},
+    shader::{Shader, ShaderText, check_files},
 };
 use std::ops::Deref;
 
@@ -156,6 +156,8 @@ impl<P: Deref<Target = dyn Store>> Plan for IdPlan<'_, P> {
     fn check(&self) -> Result<(), Unsupported> {
         check_casts(self.site.technique, self.site.casts)?;
         capacity::check(self.site.capacity)?;
+        let wrong = |error| Unsupported::Description { technique: self.site.technique.into(), error };
+        check_files(self.store.needs()).map_err(wrong)?;
         self.store.check(&self.site)?;
         self.check_images()?;
         self.check_buffers()

@@ -64,3 +64,11 @@ pub(super) fn missing(stem: &str) -> DescriptionError {
     }
     DescriptionError::Slot { slot: stem.into(), files }
 }
+
+/// Whether files of these stems exist that leave no slot open.
+///
+/// # Errors
+/// [`DescriptionError::File`], [`DescriptionError::Slot`].
+pub(crate) fn check(stems: &[&str]) -> Result<(), DescriptionError> {
+    stems.iter().try_for_each(|stem| text(stem).map(drop).ok_or_else(|| missing(stem)))
+}
