@@ -248,6 +248,16 @@ pub enum CasterError {
     },
 }
 
+/// What is no word for names in WGSL.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error(
+    "'{name}' is no word that names can begin with; allowed: a lower-case letter, then lower-case letters, digits and single underscores"
+)]
+pub struct NameError {
+    /// What was given.
+    pub name: String,
+}
+
 /// Why buffers are no [`CasterMesh`](crate::CasterMesh).
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum MeshError {

@@ -189,7 +189,7 @@ pub use wgpu;
 pub use camera::visible_hull;
 pub use capabilities::Capabilities;
 pub use cast::{Capacity, CasterMesh, CasterPass, CutoutCaster, MeshPart};
-pub use error::{CasterError, DescriptionError, LightError, MeshError, SettingError, Unsupported};
+pub use error::{CasterError, DescriptionError, LightError, MeshError, NameError, SettingError, Unsupported};
 pub use filter::{Filter, Sampling, Values};
 pub use kernel::{Kernel, Weights};
 pub use light::{Bounds, CameraFit, Cascades, Fit, Light, Size, View};

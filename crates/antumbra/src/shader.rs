@@ -8,6 +8,7 @@
 mod compose;
 mod files;
 mod listing;
+mod names;
 mod receiver;
 pub(crate) mod settings;
 mod unroll;
@@ -22,13 +23,17 @@ pub use listing::Shader;
 #[derive(Debug, Clone, Default)]
 pub struct ShaderText {
     pieces: Vec<(String, String)>,
+    /// The word that names begin with in the user's module; none where the library is alone.
+    prefix: Option<String>,
 }
 
 impl ShaderText {
-    /// Everything as one text.
+    /// Everything as one text. Every name at module scope begins with `shadow` (types with `Shadow`), or as
+    /// [`named`](Self::named) says.
     #[must_use]
     pub fn text(&self) -> String {
-        self.pieces.iter().map(|(_, text)| text.as_str()).collect()
+        let text: String = self.pieces.iter().map(|(_, text)| text.as_str()).collect();
+        if self.prefix.is_some() { self.renamed(&text) } else { text }
     }
 
     /// The caller's shader, followed by this one: her `enable` lines stay first and her line

@@ -83,7 +83,7 @@ impl ShaderText {
 
     /// A shared file with all that it needs.
     pub(super) fn of(stem: &str, slots: &[&str]) -> Result<Self, DescriptionError> {
-        let mut shader = Self { pieces: Vec::new() };
+        let mut shader = Self::default();
         shader.need(stem, slots)?;
         Ok(shader)
     }

@@ -30,6 +30,7 @@ impl Composition {
         }
         let mut shader = self.looked_up.clone();
         shader.push("shadow_visibility", &glue);
+        shader.prefix = Some(super::names::PREFIX.into());
         shader
     }
 }

@@ -75,7 +75,7 @@ pub fn compute(
     let compile = || {
         let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: None,
-            source: shadows.wgsl(0).after(user),
+            source: shadows.wgsl(0).after(&shadows.wgsl(0).renamed(user)),
         });
         device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
             label: None,
@@ -86,7 +86,7 @@ pub fn compute(
             cache: None,
         })
     };
-    let text = format!("{user}{}", shadows.wgsl(0).text());
+    let text = format!("{}{}", shadows.wgsl(0).renamed(user), shadows.wgsl(0).text());
     let made = kept(gpu).compute;
     let pipeline =
         made.lock().unwrap_or_else(PoisonError::into_inner).entry(text).or_insert_with(compile).clone();
