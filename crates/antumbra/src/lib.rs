@@ -43,7 +43,7 @@
 //! ```
 //!
 //! The examples are whole programs: `quick_start` and `hello`, `own_shader` (cascades, a larger shader, two
-//! techniques side by side), `own_depth` (a depth pass that the renderer already has), `reversed_depth`, `triangles`, `cutouts`, `skinning`,
+//! techniques side by side), `own_depth` (a depth pass that the renderer already has), `reversed_depth`, `two_lights`, `triangles`, `cutouts`, `skinning`,
 //! `compute` (fog) and `browser` (a page).
 //!
 //! # Versions

@@ -32,6 +32,7 @@ pub(crate) use draw::compute_pass;
 pub use memory::{Lifetime, Memory, MemoryItem};
 pub use options::{NoProbe, Options, PrepareError, Probe};
 pub use pipelines::Pipelines;
+use receiver::Samplers;
 pub(crate) use textures::{Textures, written};
 use uniforms::Uniforms;
 
@@ -57,6 +58,7 @@ pub struct ShadowMap {
     cast: Box<dyn Cast>,
     /// Ids that the last casters took.
     drawn: AtomicU32,
+    samplers: Samplers,
     layout: wgpu::BindGroupLayout,
     bind_group: wgpu::BindGroup,
     views: Vec<View>,
@@ -157,7 +159,13 @@ impl ShadowMap {
     /// `caster_tag` said of it.
     #[must_use]
     pub fn wgsl(&self, group: u32) -> ShaderText {
-        self.composition.receiver(self.plan().as_ref(), self.options.views, group)
+        self.wgsl_at(group, 0)
+    }
+
+    /// [`wgsl`](Self::wgsl) for [`bind_group_entries`](Self::bind_group_entries) that begin at `@binding(first)`.
+    #[must_use]
+    pub fn wgsl_at(&self, group: u32, first: u32) -> ShaderText {
+        self.composition.receiver(self.plan().as_ref(), self.options.views, (group, first))
     }
 
     /// What its store is planned like.

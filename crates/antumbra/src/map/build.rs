@@ -5,7 +5,7 @@ use super::{
     answer::{self, Refusal},
     check,
     draw::Draw,
-    receiver,
+    receiver::Samplers,
 };
 use crate::{
     cast, describe::Technique, error::Unsupported, light::Size, pass, shader::Composition, technique,
@@ -112,8 +112,9 @@ impl ShadowMap {
         let draw = |view, step| Draw::new(&pipelines, &textures, &uniforms, &description.maps, step, view);
         let draws =
             (0..options.views).map(|view| steps.iter().map(|step| draw(view, step)).collect()).collect();
-        let (layout, bind_group) =
-            receiver::group(device, description, &capabilities, &textures, &uniforms, &cast.bindings());
+        let samplers = Samplers::new(device, description, &capabilities, &textures);
+        let resources = samplers.resources(description, &textures, &uniforms, cast.as_ref());
+        let (layout, bind_group) = Samplers::group(device, resources);
         let casts = description.sample_offsets.len();
         Ok(Self {
             technique: technique.clone_box(),
@@ -125,6 +126,7 @@ impl ShadowMap {
             draws,
             cast,
             drawn: AtomicU32::new(0),
+            samplers,
             layout,
             bind_group,
             views: Vec::with_capacity(options.views as usize),

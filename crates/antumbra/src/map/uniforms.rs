@@ -227,19 +227,5 @@ fn receiver_bytes(
     bytes.extend_from_slice(bytemuck::cast_slice(scalars));
 }
 
-/// Layout entry of the receiver's uniforms.
-pub(super) fn layout_entry(binding: u32) -> wgpu::BindGroupLayoutEntry {
-    wgpu::BindGroupLayoutEntry {
-        binding,
-        visibility: wgpu::ShaderStages::FRAGMENT | wgpu::ShaderStages::COMPUTE,
-        ty: wgpu::BindingType::Buffer {
-            ty: wgpu::BufferBindingType::Uniform,
-            has_dynamic_offset: false,
-            min_binding_size: None,
-        },
-        count: None,
-    }
-}
-
 #[cfg(test)]
 mod tests;

@@ -71,6 +71,6 @@ impl ShaderText {
     ) -> Result<Self, Unsupported> {
         let composition = Composition::of(technique, device, options)?;
         let plan = cast::plan(&composition, device, options);
-        Ok(composition.receiver(plan.as_ref(), options.views, group))
+        Ok(composition.receiver(plan.as_ref(), options.views, (group, 0)))
     }
 }

@@ -64,7 +64,7 @@ fn renamed(name: &str, prefix: &str) -> String {
 }
 
 /// Names that a text declares at module scope.
-fn globals(text: &str) -> impl Iterator<Item = &str> {
+pub(super) fn globals(text: &str) -> impl Iterator<Item = &str> {
     let (mut depth, mut declares, mut in_template) = (0, false, false);
     tokens(text).filter_map(move |token| {
         match token {

@@ -16,14 +16,15 @@ use std::fmt::Write;
 const ROUNDING: &str = "4.8e-7";
 
 impl Composition {
-    /// `shadow_visibility` and everything it needs, bound in `group`; it may call the user's
+    /// `shadow_visibility` and everything it needs, bound in a group from a binding on; it may call the user's
     /// `shadow_covers` about cut-outs.
-    pub(crate) fn receiver(&self, plan: &dyn Plan, views: u32, group: u32) -> ShaderText {
+    pub(crate) fn receiver(&self, plan: &dyn Plan, views: u32, at: (u32, u32)) -> ShaderText {
+        let (group, first) = at;
         let description = &self.description;
-        let mut glue = uniforms(description, views, group);
+        let mut glue = uniforms(description, views, at);
         glue += &settings::accessors(description, Reader::Receiver);
-        let arguments = bindings(&mut glue, description, group);
-        glue += &plan.lookups(group, description.bindings.len() as u32 + 1);
+        let arguments = bindings(&mut glue, description, at);
+        glue += &plan.lookups(group, first + description.bindings.len() as u32 + 1);
         glue += &function(description, &arguments, "visibility", ["f32", "1.0"]);
         if !description.classes.is_empty() {
             glue += &function(description, &arguments, "class", ["u32", "0u"]);
@@ -36,22 +37,22 @@ impl Composition {
 }
 
 /// The structs of uniforms, which `map/uniforms.rs` fills.
-fn uniforms(description: &Description, views: u32, group: u32) -> String {
+fn uniforms(description: &Description, views: u32, (group, first): (u32, u32)) -> String {
     let per_view: String = settings::per_view(description).map(|name| format!(", {name}: f32")).collect();
     let once: String = settings::once(description).map(|name| format!("    {name}: f32,\n")).collect();
     format!(
         "struct ShadowView {{ clip_from_world: mat4x4f, depth_plane: vec4f, to_light: vec4f, linear_over: vec4f, linear_under: vec4f, texel_world: f32, reach_x: f32, reach_y: f32, padding: f32{per_view} }}\n\
          struct ShadowUniforms {{\n    views: array<ShadowView, {views}>,\n    view_count: u32, width: f32, height: f32,\n    constant_texels: f32, slope_texels: f32, normal_offset_texels: f32, grazing_offset_texels: f32,\n    receiver_plane: f32, constant_depth: f32, float_steps: f32,\n{once}}}\n\
-         @group({group}) @binding(0) var<uniform> shadow: ShadowUniforms;\n"
+         @group({group}) @binding({first}) var<uniform> shadow: ShadowUniforms;\n"
     )
 }
 
 /// Declares the technique's bindings; the arguments that they are.
-fn bindings(glue: &mut String, description: &Description, group: u32) -> String {
+fn bindings(glue: &mut String, description: &Description, (group, first): (u32, u32)) -> String {
     let mut arguments = String::new();
     for (i, binding) in description.bindings.iter().enumerate() {
         let (name, ty) = (format!("shadow_binding_{i}"), wgsl_type(*binding, &description.maps));
-        let _ = writeln!(glue, "@group({group}) @binding({}) var {name}: {ty};", i + 1);
+        let _ = writeln!(glue, "@group({group}) @binding({}) var {name}: {ty};", first + i as u32 + 1);
         let _ = write!(arguments, "{name}, ");
     }
     arguments

@@ -17,7 +17,7 @@ fn options() -> Options {
 /// What receivers call, and whatever that binds in group 2.
 fn receiver(composition: &Composition, device: &Capabilities) -> ShaderText {
     let options = options();
-    composition.receiver(cast::plan(composition, device, &options).as_ref(), options.views, 2)
+    composition.receiver(cast::plan(composition, device, &options).as_ref(), options.views, (2, 0))
 }
 
 /// Everything and nothing of what devices may lack.
@@ -348,4 +348,23 @@ fn no_function_has_more_than_nine_parameters() {
     }
     assert!(functions > 150, "{functions}");
     assert_eq!(parameters("fn f(a: array<f32, 4>, b: vec2f) -> f32 {}"), [("f".to_string(), 2)]);
+}
+
+/// Users may name their own things as files do, and put several maps into one module.
+#[test]
+fn names_of_users_and_of_other_maps_are_free() {
+    for technique in technique::all() {
+        let description = technique.describe(&Capabilities::full()).unwrap();
+        let name = description.about.name;
+        let text = receiver(&Composition::new(description, false).unwrap(), &Capabilities::full());
+        let raw = ShaderText { prefix: None, ..text.clone() }.text();
+        let own = names::globals(&raw).filter(|name| !name.to_lowercase().starts_with(names::PREFIX));
+        let user: String = own.map(|name| format!("const {name} = 1;\n")).collect();
+        // The same map twice, bound in other groups.
+        let lamp = text.named("lamp").unwrap().text().replace("@group(2)", "@group(1)");
+        validate(&format!("{user}{}{lamp}", text.text())).unwrap_or_else(|e| panic!("{name}: {e}"));
+        // Negative controls: names as files have them, the same word twice.
+        validate(&format!("{user}{raw}")).unwrap_err();
+        validate(&(text.text() + &text.text())).unwrap_err();
+    }
 }

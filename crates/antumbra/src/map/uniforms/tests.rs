@@ -54,7 +54,7 @@ fn composed(technique: &dyn Technique) -> Composition {
 /// The receiver's text for three views.
 fn receiver(composition: &Composition) -> String {
     let (device, options) = (Capabilities::least(), Options::from(Size::square(8)).views(3));
-    composition.receiver(cast::plan(composition, &device, &options).as_ref(), 3, 0).text()
+    composition.receiver(cast::plan(composition, &device, &options).as_ref(), 3, (0, 0)).text()
 }
 
 fn same(wgsl: &str, description: &Description) -> Result<(), String> {
