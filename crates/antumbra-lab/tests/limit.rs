@@ -76,7 +76,7 @@ impl Differences {
         let answer = shot.visibility(&maps[0]);
         let tracer = Tracer::new(&shot.geometry).unwrap();
         let hits = tracer.primary(&shot.rays());
-        let drawn = readback::triangle_ids(&shot.gpu, &shot.on_gpu, &shot.geometry).unwrap();
+        let drawn = readback::triangle_ids(&shot.gpu, &shot.gpu_scene, &shot.geometry).unwrap();
         Self::count(&tracer, &shot.light, &view, &hits, &drawn, &answer, &shot.hard_truth())
     }
 

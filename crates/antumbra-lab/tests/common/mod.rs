@@ -25,7 +25,7 @@ pub(crate) struct Picture {
     pub(crate) light: Light,
     pub(crate) resolution: [u32; 2],
     pub(crate) gpu: Gpu,
-    pub(crate) on_gpu: GpuScene,
+    pub(crate) gpu_scene: GpuScene,
     lighting: Lighting,
     /// What its maps have memory for: what the scene needs, unless a test wants otherwise.
     pub(crate) capacity: Capacity,
@@ -50,11 +50,11 @@ impl Picture {
         let gpu = Gpu::adopt(gpu.device.clone(), gpu.queue.clone(), gpu.info.clone());
         let (mut geometry, camera, light) = (scene.flatten(), scene.main_camera(), scene.main_light());
         change(&mut geometry);
-        let on_gpu = GpuScene::new(&gpu, &geometry, &camera, &light, resolution).unwrap();
-        let lighting = Lighting::new(&gpu, &on_gpu);
-        let capacity = on_gpu.capacity();
-        let cutouts = on_gpu.tells_cutouts();
-        Self { geometry, camera, light, resolution, gpu, on_gpu, lighting, capacity, cutouts }
+        let gpu_scene = GpuScene::new(&gpu, &geometry, &camera, &light, resolution).unwrap();
+        let lighting = Lighting::new(&gpu, &gpu_scene);
+        let capacity = gpu_scene.capacity();
+        let cutouts = gpu_scene.tells_cutouts();
+        Self { geometry, camera, light, resolution, gpu, gpu_scene, lighting, capacity, cutouts }
     }
 
     pub(crate) fn rays(&self) -> CameraRays {
@@ -64,7 +64,7 @@ impl Picture {
     /// Whether raster and rays see the same triangles.
     pub(crate) fn coverage(&self) -> Coverage {
         let (tracer, rays) = (Tracer::new(&self.geometry).unwrap(), self.rays());
-        let ids = readback::triangle_ids(&self.gpu, &self.on_gpu, &self.geometry).unwrap();
+        let ids = readback::triangle_ids(&self.gpu, &self.gpu_scene, &self.geometry).unwrap();
         assert_eq!(ids.len(), rays.pixel_count());
         tracer.coverage(&rays, &tracer.primary(&rays), &ids, CoverageTolerance::default())
     }
@@ -82,7 +82,7 @@ impl Picture {
         let mut maps: Vec<ShadowMap> = techniques.iter().map(new).collect();
         let all: Vec<&ShadowMap> = maps.iter().collect();
         let scene = self.geometry.bounds_around(self.camera.position).unwrap();
-        let view = views::fit(self.on_gpu.camera_matrix(), scene, &self.light, 1, &all).unwrap()[0];
+        let view = views::fit(self.gpu_scene.camera_matrix(), scene, &self.light, 1, &all).unwrap()[0];
         for map in &mut maps {
             map.prepare(&self.gpu.queue, &[view]).unwrap();
         }
@@ -91,12 +91,12 @@ impl Picture {
 
     /// What one of them answers for every pixel.
     pub(crate) fn visibility(&mut self, shadows: &ShadowMap) -> GrayImage {
-        let lookup = Lookup::new(&self.gpu, &self.on_gpu, shadows);
+        let lookup = Lookup::new(&self.gpu, &self.gpu_scene, shadows);
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
-        let casters = Casters::new(&self.gpu, &self.on_gpu, shadows).unwrap();
-        shadows.encode(&mut encoder, |pass| self.on_gpu.draw_casters(&casters, pass)).unwrap();
-        self.on_gpu.encode_surfaces(&mut encoder, None);
-        self.lighting.encode_lookup(&mut encoder, &self.on_gpu, &lookup, Some(shadows), None);
+        let casters = Casters::new(&self.gpu, &self.gpu_scene, shadows).unwrap();
+        shadows.encode(&mut encoder, |pass| self.gpu_scene.draw_casters(&casters, pass)).unwrap();
+        self.gpu_scene.encode_surfaces(&mut encoder, None);
+        self.lighting.encode_lookup(&mut encoder, &self.gpu_scene, &lookup, Some(shadows), None);
         self.gpu.finish(encoder).unwrap();
         readback::visibility(&self.gpu, &self.lighting).unwrap()
     }
