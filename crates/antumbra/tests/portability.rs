@@ -11,7 +11,10 @@ use antumbra_testing::{
     Gpu, Trials, settings,
     shaders::{NATIVE, Needs, Shaders},
 };
-use std::path::{Path, PathBuf};
+use std::{
+    collections::BTreeSet,
+    path::{Path, PathBuf},
+};
 use wgpu::Features;
 
 /// A user's shader: the receiver in a fragment and in a compute shader.
@@ -164,6 +167,14 @@ fn documents() -> Shaders {
     shaders
 }
 
+/// The words in front of `_visibility(` in a text: one for each of its maps.
+fn visibilities(wgsl: &str) -> BTreeSet<&str> {
+    let before = wgsl.split("_visibility(").collect::<Vec<_>>();
+    let in_name = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    let maps = before.iter().take(before.len() - 1);
+    maps.map(|text| &text[text.rfind(|c| !in_name(c)).map_or(0, |i| i + 1)..]).collect()
+}
+
 fn add_document(shaders: &mut Shaders, name: &str, wgsl: &str) {
     let (device, options) = (capabilities(Needs::LEAST), Options::from(Size::square(64)).views(4));
     let caster = if wgsl.contains("caster_pancaked(") { CASTER_WGSL } else { "" };
@@ -176,9 +187,11 @@ fn add_document(shaders: &mut Shaders, name: &str, wgsl: &str) {
             }
             continue;
         }
-        let receiver = ShaderText::receiver(technique.as_ref(), &device, &options, 3).unwrap().text();
-        let receiver = if wgsl.contains("shadow_visibility(") { receiver.as_str() } else { "" };
-        shaders.add(&name, [wgsl, caster, receiver].join("\n"), &[], Needs::LEAST);
+        let at = |group| ShaderText::receiver(technique.as_ref(), &device, &options, group).unwrap();
+        // The last groups, which none of the shaders has something in.
+        let receivers = visibilities(wgsl).into_iter().zip((1..=3).rev());
+        let receivers: String = receivers.map(|(map, group)| at(group).named(map).unwrap().text()).collect();
+        shaders.add(&name, [wgsl, caster, &receivers].join("\n"), &[], Needs::LEAST);
     }
 }
 
