@@ -53,6 +53,30 @@ pub fn compute(
     let source = buffer(input.len(), Usage::STORAGE | Usage::COPY_DST);
     let target = buffer(4 * outputs, Usage::STORAGE | Usage::COPY_SRC);
     gpu.queue.write_buffer(&source, 0, input);
+    let (pipeline, own) = pipeline(gpu, shadows, user);
+    let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: None,
+        layout: &own,
+        entries: &[
+            wgpu::BindGroupEntry { binding: 0, resource: source.as_entire_binding() },
+            wgpu::BindGroupEntry { binding: 1, resource: target.as_entire_binding() },
+        ],
+    });
+    let mut encoder = device.create_command_encoder(&Default::default());
+    {
+        let mut pass = encoder.begin_compute_pass(&Default::default());
+        pass.set_pipeline(&pipeline);
+        pass.set_bind_group(0, shadows.bind_group(), &[]);
+        pass.set_bind_group(1, &group, &[]);
+        pass.dispatch_workgroups(invocations.div_ceil(64) as u32, 1, 1);
+    }
+    gpu.queue.submit([encoder.finish()]);
+    floats(&gpu.read_buffer(&target))
+}
+
+/// Its pipeline, compiled once for each text, and the layout of group 1.
+fn pipeline(gpu: &Gpu, shadows: &ShadowMap, user: &str) -> (wgpu::ComputePipeline, wgpu::BindGroupLayout) {
+    let device = &gpu.device;
     let entry = |binding, read_only| wgpu::BindGroupLayoutEntry {
         binding,
         visibility: wgpu::ShaderStages::COMPUTE,
@@ -72,10 +96,12 @@ pub fn compute(
         bind_group_layouts: &[Some(shadows.layout()), Some(&own)],
         immediate_size: 0,
     });
+    let receiver = shadows.wgsl(0);
+    let user = receiver.renamed(user);
     let compile = || {
         let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: None,
-            source: shadows.wgsl(0).after(&shadows.wgsl(0).renamed(user)),
+            source: receiver.after(&user),
         });
         device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
             label: None,
@@ -86,26 +112,8 @@ pub fn compute(
             cache: None,
         })
     };
-    let text = format!("{}{}", shadows.wgsl(0).renamed(user), shadows.wgsl(0).text());
+    let text = format!("{user}{}", receiver.text());
     let made = kept(gpu).compute;
-    let pipeline =
-        made.lock().unwrap_or_else(PoisonError::into_inner).entry(text).or_insert_with(compile).clone();
-    let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: None,
-        layout: &own,
-        entries: &[
-            wgpu::BindGroupEntry { binding: 0, resource: source.as_entire_binding() },
-            wgpu::BindGroupEntry { binding: 1, resource: target.as_entire_binding() },
-        ],
-    });
-    let mut encoder = device.create_command_encoder(&Default::default());
-    {
-        let mut pass = encoder.begin_compute_pass(&Default::default());
-        pass.set_pipeline(&pipeline);
-        pass.set_bind_group(0, shadows.bind_group(), &[]);
-        pass.set_bind_group(1, &group, &[]);
-        pass.dispatch_workgroups(invocations.div_ceil(64) as u32, 1, 1);
-    }
-    gpu.queue.submit([encoder.finish()]);
-    floats(&gpu.read_buffer(&target))
+    let mut made = made.lock().unwrap_or_else(PoisonError::into_inner);
+    (made.entry(text).or_insert_with(compile).clone(), own)
 }

@@ -21,18 +21,7 @@ pub fn depth_layers(
         .flat_map(|(layer, y)| (0..size.width).map(move |x| (layer, x, y)))
         .map(|(layer, x, y)| depth(layer, x, y))
         .collect();
-    let texture = |format, usage| {
-        gpu.device.create_texture(&wgpu::TextureDescriptor {
-            label: Some("test depth"),
-            size: wgpu::Extent3d { width: size.width, height: size.height, depth_or_array_layers: layers },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format,
-            usage,
-            view_formats: &[],
-        })
-    };
+    let texture = |format, usage| texture(gpu, size, layers, format, usage);
     use wgpu::TextureUsages as Usage;
     let source = texture(wgpu::TextureFormat::R32Float, Usage::TEXTURE_BINDING | Usage::COPY_DST);
     let target =
@@ -47,6 +36,31 @@ pub fn depth_layers(
         },
         source.size(),
     );
+    draw(gpu, &source, &target);
+    target
+}
+
+fn texture(
+    gpu: &Gpu,
+    size: Size,
+    layers: u32,
+    format: wgpu::TextureFormat,
+    usage: wgpu::TextureUsages,
+) -> wgpu::Texture {
+    gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("test depth"),
+        size: wgpu::Extent3d { width: size.width, height: size.height, depth_or_array_layers: layers },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage,
+        view_formats: &[],
+    })
+}
+
+/// Draws every layer of a texture of floats as depth.
+fn draw(gpu: &Gpu, source: &wgpu::Texture, target: &wgpu::Texture) {
     let pipeline = kept(gpu).depth;
     let one = |texture: &wgpu::Texture, layer| {
         texture.create_view(&wgpu::TextureViewDescriptor {
@@ -57,20 +71,20 @@ pub fn depth_layers(
         })
     };
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    for layer in 0..layers {
+    for layer in 0..source.depth_or_array_layers() {
         let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: None,
             layout: &pipeline.get_bind_group_layout(0),
             entries: &[wgpu::BindGroupEntry {
                 binding: 0,
-                resource: wgpu::BindingResource::TextureView(&one(&source, layer)),
+                resource: wgpu::BindingResource::TextureView(&one(source, layer)),
             }],
         });
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("test depth"),
             color_attachments: &[],
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-                view: &one(&target, layer),
+                view: &one(target, layer),
                 depth_ops: Some(wgpu::Operations {
                     load: wgpu::LoadOp::Clear(1.0),
                     store: wgpu::StoreOp::Store,
@@ -86,7 +100,6 @@ pub fn depth_layers(
         pass.draw(0..3, 0..1);
     }
     gpu.queue.submit([encoder.finish()]);
-    target
 }
 
 /// Depth with every layer `times` times in a row.

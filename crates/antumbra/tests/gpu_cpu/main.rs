@@ -137,6 +137,67 @@ fn bilinear(u: f64, v: f64, side: usize, image: impl Fn(usize) -> f64) -> f64 {
     top * (1.0 - fy) + bottom * fy
 }
 
+type Comparison = (&'static str, fn(&Gpu));
+
+/// What is compared.
+const COMPARISONS: &[Comparison] = &[
+    ("esm encodes and bounds", basis::esm_encodes_and_bounds),
+    ("esm of logarithms", basis::esm_of_logarithms),
+    ("vsm encodes", basis::vsm_encodes),
+    ("vsm and chebyshev bound", basis::vsm_and_chebyshev_bound),
+    ("evsm encodes and bounds", basis::evsm_encodes_and_bounds),
+    ("msm encodes and bounds", basis::msm_encodes_and_bounds),
+    ("lvsm encodes and bounds", basis::lvsm_encodes_and_bounds),
+    ("csm sums its series", basis::csm_sums_its_series),
+    ("raster depth is linearised", receiver::raster_depth_is_linearised),
+    ("raster depth is cleaned", receiver::raster_depth_is_cleaned),
+    ("six spots are a point light", receiver::six_spots_are_a_point_light),
+    ("receivers are projected", receiver::receivers_are_projected),
+    ("receiver planes are solved", receiver::receiver_planes_are_solved),
+    ("steeper planes are followed", receiver::steeper_planes_are_followed),
+    ("pcf is a weighted sum", comparison::pcf_is_a_weighted_sum),
+    ("taps agree", comparison::taps_agree),
+    ("merged taps follow the plane", comparison::merged_taps_follow_the_plane),
+    ("bicubic is a convolution", comparison::bicubic_is_a_convolution),
+    ("poisson is the mean of its disk", comparison::poisson_is_the_mean_of_its_disk),
+    ("footprint is the mean of its pixel", comparison::footprint_is_the_mean_of_its_pixel),
+    ("packed encodes", stored::packed_encodes),
+    ("packed is the mean around a corner", stored::packed_is_the_mean_around_a_corner),
+    ("stratified is the mean of its samples", stored::stratified_is_the_mean_of_its_samples),
+    ("precision rounds the map", stored::precision_rounds_the_map),
+    ("lookups interpolate", lookups::lookups_interpolate),
+    ("logarithms are interpolated as powers", lookups::logarithms_interpolate_as_powers),
+    ("words add up", lookups::words_add_up),
+    ("sums are means over boxes", lookups::sums_are_means_over_boxes),
+    ("sums at 2048² are exact", lookups::sums_are_exact_at_2048),
+    ("triangles survive packing", geometry::triangles_survive_packing),
+    ("slopes are quantised as published", geometry::slopes_are_quantised),
+    ("spsm intersects (Algorithm 1)", geometry::spsm_intersects),
+    ("rgsm meets stored triangles", geometry::rgsm_meets_stored_triangles),
+    ("spsm finds consistent least depths", geometry::spsm_finds_least_depths),
+    ("spsm's table of tangents", geometry::spsm_tangents),
+    ("splines weigh centres", geometry::splines_weigh_centres),
+    ("every touched texel is drawn", geometry::every_touched_texel_is_drawn),
+    ("lists hold all triangles", lists::lists_hold_all_triangles),
+    ("split buffers answer the same", split::split_buffers_answer_the_same),
+    ("lists beyond the capacity are cut", lists::lists_beyond_the_capacity_are_cut),
+    ("lists tell their memory", lists::lists_tell_their_memory),
+    ("the first triangles are kept", ranked::the_first_are_kept),
+    ("triangles beyond the capacity are left out", ranked::triangles_beyond_the_capacity_are_left_out),
+    ("keys keep what they are of", ranked::keys_keep_what_they_are_of),
+    ("mirrored objects show their other side", ranked::mirrored_objects_show_their_other_side),
+    ("centres have their depth", ranked::centres_have_their_depth),
+    ("exact intersects", lists::exact_intersects),
+    ("records keep every bit", lists::records_keep_every_bit),
+    ("long thin triangles are met", lists::thin_triangles_are_met),
+    ("silhouettes of fine meshes are recovered", silhouettes::fine_meshes),
+    ("sheets count among closed casters", silhouettes::sheets_count_among_closed_casters),
+    ("edges of large triangles are smooth", silhouettes::edges_are_smooth),
+    ("holes of cut-outs stay open", silhouettes::holes_stay_open),
+    ("draws come in any order", silhouettes::draws_come_in_any_order),
+    ("triangles that reach behind a spot are cut", geometry::triangles_behind_a_spot_are_cut),
+];
+
 fn main() {
     let mut trials = Trials::default();
     trials.add_plain("every encode function is compared", || {
@@ -148,63 +209,8 @@ fn main() {
             }
         }
     });
-    trials.add("esm encodes and bounds", basis::esm_encodes_and_bounds);
-    trials.add("esm of logarithms", basis::esm_of_logarithms);
-    trials.add("vsm encodes", basis::vsm_encodes);
-    trials.add("vsm and chebyshev bound", basis::vsm_and_chebyshev_bound);
-    trials.add("evsm encodes and bounds", basis::evsm_encodes_and_bounds);
-    trials.add("msm encodes and bounds", basis::msm_encodes_and_bounds);
-    trials.add("lvsm encodes and bounds", basis::lvsm_encodes_and_bounds);
-    trials.add("csm sums its series", basis::csm_sums_its_series);
-    trials.add("raster depth is linearised", receiver::raster_depth_is_linearised);
-    trials.add("raster depth is cleaned", receiver::raster_depth_is_cleaned);
-    trials.add("six spots are a point light", receiver::six_spots_are_a_point_light);
-    trials.add("receivers are projected", receiver::receivers_are_projected);
-    trials.add("receiver planes are solved", receiver::receiver_planes_are_solved);
-    trials.add("steeper planes are followed", receiver::steeper_planes_are_followed);
-    trials.add("pcf is a weighted sum", comparison::pcf_is_a_weighted_sum);
-    trials.add("taps agree", comparison::taps_agree);
-    trials.add("merged taps follow the plane", comparison::merged_taps_follow_the_plane);
-    trials.add("bicubic is a convolution", comparison::bicubic_is_a_convolution);
-    trials.add("poisson is the mean of its disk", comparison::poisson_is_the_mean_of_its_disk);
-    trials.add("footprint is the mean of its pixel", comparison::footprint_is_the_mean_of_its_pixel);
-    trials.add("packed encodes", stored::packed_encodes);
-    trials.add("packed is the mean around a corner", stored::packed_is_the_mean_around_a_corner);
-    trials.add("stratified is the mean of its samples", stored::stratified_is_the_mean_of_its_samples);
-    trials.add("precision rounds the map", stored::precision_rounds_the_map);
-    trials.add("lookups interpolate", lookups::lookups_interpolate);
-    trials.add("logarithms are interpolated as powers", lookups::logarithms_interpolate_as_powers);
-    trials.add("words add up", lookups::words_add_up);
-    trials.add("sums are means over boxes", lookups::sums_are_means_over_boxes);
-    trials.add("sums at 2048² are exact", lookups::sums_are_exact_at_2048);
-    trials.add("triangles survive packing", geometry::triangles_survive_packing);
-    trials.add("slopes are quantised as published", geometry::slopes_are_quantised);
-    trials.add("spsm intersects (Algorithm 1)", geometry::spsm_intersects);
-    trials.add("rgsm meets stored triangles", geometry::rgsm_meets_stored_triangles);
-    trials.add("spsm finds consistent least depths", geometry::spsm_finds_least_depths);
-    trials.add("spsm's table of tangents", geometry::spsm_tangents);
-    trials.add("splines weigh centres", geometry::splines_weigh_centres);
-    trials.add("every touched texel is drawn", geometry::every_touched_texel_is_drawn);
-    trials.add("lists hold all triangles", lists::lists_hold_all_triangles);
-    trials.add("split buffers answer the same", split::split_buffers_answer_the_same);
-    trials.add("lists beyond the capacity are cut", lists::lists_beyond_the_capacity_are_cut);
-    trials.add("lists tell their memory", lists::lists_tell_their_memory);
-    trials.add("the first triangles are kept", ranked::the_first_are_kept);
-    trials.add(
-        "triangles beyond the capacity are left out",
-        ranked::triangles_beyond_the_capacity_are_left_out,
-    );
-    trials.add("keys keep what they are of", ranked::keys_keep_what_they_are_of);
-    trials.add("mirrored objects show their other side", ranked::mirrored_objects_show_their_other_side);
-    trials.add("centres have their depth", ranked::centres_have_their_depth);
-    trials.add("exact intersects", lists::exact_intersects);
-    trials.add("records keep every bit", lists::records_keep_every_bit);
-    trials.add("long thin triangles are met", lists::thin_triangles_are_met);
-    trials.add("silhouettes of fine meshes are recovered", silhouettes::fine_meshes);
-    trials.add("sheets count among closed casters", silhouettes::sheets_count_among_closed_casters);
-    trials.add("edges of large triangles are smooth", silhouettes::edges_are_smooth);
-    trials.add("holes of cut-outs stay open", silhouettes::holes_stay_open);
-    trials.add("draws come in any order", silhouettes::draws_come_in_any_order);
-    trials.add("triangles that reach behind a spot are cut", geometry::triangles_behind_a_spot_are_cut);
+    for (name, compared) in COMPARISONS {
+        trials.add(*name, *compared);
+    }
     trials.run();
 }
