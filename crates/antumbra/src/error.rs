@@ -179,6 +179,16 @@ pub enum Unsupported {
         /// What the device says.
         reason: String,
     },
+    /// Settings that a living map cannot take.
+    #[error(
+        "a map of {has} cannot become one of {asked}: other textures or shaders follow from that; make a new map"
+    )]
+    Fixed {
+        /// The technique that it has, with its settings.
+        has: String,
+        /// The one that was given.
+        asked: String,
+    },
     /// A technique's description that contradicts itself, or whose WGSL cannot be put together.
     #[error("the description of {technique} is wrong: {error}")]
     Description {

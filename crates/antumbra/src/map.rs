@@ -11,6 +11,7 @@ use glam::Vec2;
 use std::sync::atomic::{AtomicU32, Ordering};
 use wgpu::TextureFormat;
 
+mod adjust;
 mod answer;
 mod brought;
 mod build;
@@ -48,6 +49,8 @@ pub const DEPTH_FORMAT: TextureFormat = TextureFormat::Depth32Float;
 #[derive(Debug)]
 pub struct ShadowMap {
     technique: Box<dyn Technique>,
+    /// Step of the caller's depth, and whether it falls with the distance.
+    brought: Option<(f32, bool)>,
     composition: Composition,
     capabilities: Capabilities,
     options: Options,

@@ -118,6 +118,7 @@ impl ShadowMap {
         let casts = description.sample_offsets.len();
         Ok(Self {
             technique: technique.clone_box(),
+            brought: depth.map(|depth| (depth.quantum(), depth.is_reversed())),
             composition,
             capabilities,
             options: options.clone(),

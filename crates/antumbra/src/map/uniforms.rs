@@ -115,6 +115,11 @@ impl Uniforms {
         }
     }
 
+    /// Takes the numbers of another description with as many, or of another bias.
+    pub(super) fn adjust(&mut self, description: &Description, options: &Options) {
+        self.scalars = scalars(description, options.bias.terms(description.bias), options.size);
+    }
+
     pub(super) fn write(&mut self, queue: &wgpu::Queue, views: &[View]) {
         receiver_bytes(&mut self.bytes, views, self.room, self.reach, &self.per_view, &self.scalars);
         queue.write_buffer(&self.receiver, 0, &self.bytes);
