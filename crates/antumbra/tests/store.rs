@@ -34,7 +34,7 @@ fn store_keeps_vertices() -> bool { return true; }
 fn store_triangle(shaped: CasterTriangle, triangle: u32, seen: mat3x3f, id: u32) -> CasterTriangle {
     var out = shaped;
     out.id = id;
-    out.slope = caster_slope(triangle, mat3x3f(out.corner_0, out.corner_1, out.corner_2));
+    out.slope = caster_slope(triangle, caster_places(out));
     return out;
 }
 
@@ -49,7 +49,7 @@ fn store_depth(in: CasterTriangle, at: vec2f) -> f32 {
     }
     let at = vec2u(in.position.xy);
     let size = vec2u(caster_view.size);
-    let depth = in.corner_0.z + dot(in.slope, touch.centre);
+    let depth = in.depths.x + dot(in.slope, touch.centre);
     let i = (caster_step.view * size.y + at.y) * size.x + at.x;
     first_keys_max(i, key_of(false, depth, in.id, caster_step.words.x));
     vertices_keep_all(in);

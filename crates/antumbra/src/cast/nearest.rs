@@ -22,8 +22,8 @@ use wgpu::{
     TextureFormat,
 };
 
-/// What texels of a triangle share.
-const VARYINGS: Varyings = &[("slope", "vec2f"), ("packed_slope", "vec2f"), ("words", "vec4u")];
+/// What texels of a triangle share: depth gained per texel, as it is and as packed; packed words.
+const VARYINGS: Varyings = &[("slopes", "vec4f"), ("words", "vec4u")];
 const NEAREST: &str = include_str!("nearest/nearest.wgsl.in");
 const LABEL: &str = "shadow caster view";
 

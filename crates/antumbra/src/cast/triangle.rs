@@ -51,7 +51,7 @@ pub(super) type Varyings = &'static [(&'static str, &'static str)];
 const SHARES: Varyings =
     &[("triangle", "u32"), ("share_0", "vec3f"), ("share_1", "vec3f"), ("share_2", "vec3f")];
 /// Locations before a store's.
-const LOCATIONS: usize = 5;
+const LOCATIONS: usize = 4;
 
 /// A whole shader: what is `needed` from the library, members of `CasterTriangle`, and the texts of a store.
 pub(super) fn compose(
