@@ -87,6 +87,9 @@ impl ShadowMap {
         if let Some(view) = brought::contrary(views, reversed) {
             return Err(PrepareError::Depth { view, reversed: !reversed });
         }
+        if let Some(view) = views.iter().position(View::is_warped).filter(|_| !self.options.warped) {
+            return Err(PrepareError::Warped { view });
+        }
         self.views.clear();
         self.views.extend_from_slice(views);
         self.caster_views.clear();

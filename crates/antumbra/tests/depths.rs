@@ -152,9 +152,44 @@ fn misuse_is_told(gpu: &Gpu) {
     assert!(matches!(error, CasterError::Brought { .. }) && error.to_string().contains("encode_filter"));
 }
 
+/// Depth that leans on the place in the picture, for maps that are made for it.
+fn warped_depth_is_the_same_depth(gpu: &Gpu) {
+    // z' = 0.8 z + 0.1 x + 0.1.
+    let row = Vec4::new(0.1, 0.0, 0.8, 0.1);
+    let warped = View {
+        clip_from_world: Mat4::from_cols(Vec4::X, Vec4::Y, row, Vec4::W).transpose(),
+        linear_from_clip: [Vec4::new(-0.125, 0.0, 1.25, -0.125), Vec4::W],
+        ..view(SIZE)
+    };
+    assert!(warped.is_warped() && !warped.is_reversed());
+    let plain = depth_layers(gpu, SIZE, 1, |_, x, y| block(x, y));
+    let leaning = depth_layers(gpu, SIZE, 1, |_, x, y| {
+        0.8 * block(x, y) + 0.1 * (2.0 * (x as f32 + 0.5) / SIZE.width as f32 - 1.0) + 0.1
+    });
+    for spec in ["vsm.kernel=1,sampling=nearest", "esm", "evsm"] {
+        let technique = technique::parse(spec).unwrap();
+        let ask = |depth, view, warped| {
+            let options = antumbra::Options::from(SIZE).warped(warped);
+            let mut shadows = ShadowMap::from_depth(&gpu.device, technique.as_ref(), depth, options).unwrap();
+            shadows.prepare(&gpu.queue, &[view])?;
+            let mut encoder = gpu.device.create_command_encoder(&Default::default());
+            shadows.encode_filter(&mut encoder, &mut NoProbe);
+            gpu.queue.submit([encoder.finish()]);
+            Ok::<_, PrepareError>(visibility(gpu, &shadows, &receivers()))
+        };
+        let expected: Vec<f32> = ask(&plain, view(SIZE), false).unwrap();
+        let found = ask(&leaning, warped, true).unwrap();
+        assert!(apart(&expected, &found) < 5e-3, "{spec}: {}", apart(&expected, &found));
+        assert_eq!(ask(&leaning, warped, false).unwrap_err(), PrepareError::Warped { view: 0 });
+        let wrong = ask(&leaning, view(SIZE), true).unwrap();
+        assert!(apart(&expected, &wrong) > 0.1, "negative control");
+    }
+}
+
 fn main() {
     let mut trials = Trials::default();
     trials.add("reversed_depth_is_the_same_depth", reversed_depth_is_the_same_depth);
+    trials.add("warped_depth_is_the_same_depth", warped_depth_is_the_same_depth);
     trials.add("few_bits_are_allowed_for", few_bits_are_allowed_for);
     trials.add("misuse_is_told", misuse_is_told);
     trials.run();

@@ -73,7 +73,7 @@ impl View {
         Ok(Self {
             clip_from_world,
             depth_plane: depth.as_vec4(),
-            linear_from_clip: [over, under].map(|row| (row * scale).as_vec4()),
+            linear_from_clip: [over, under].map(|row| straightened((row * scale).as_vec4())),
             to_light: to_light.as_vec4(),
             texel_world: side(0, size.width).max(side(1, size.height)) as f32,
             depth_world: (far - near) as f32,
@@ -97,6 +97,12 @@ impl View {
     #[must_use]
     pub fn is_perspective(&self) -> bool {
         self.to_light.w != 0.0
+    }
+
+    /// Whether linear depth depends on the place in the picture and not on the depth as rasterised alone.
+    #[must_use]
+    pub fn is_warped(&self) -> bool {
+        self.linear_from_clip.iter().any(|row| row.x != 0.0 || row.y != 0.0)
     }
 
     /// Whether depth as rasterised falls with the distance from the light.
@@ -139,6 +145,12 @@ impl View {
     }
 }
 
+/// The row without what rounding leaves of a dependence on the place in the picture.
+fn straightened(row: Vec4) -> Vec4 {
+    let place = if row.truncate().truncate().abs().max_element() < 1e-6 { 0.0 } else { 1.0 };
+    Vec4::new(row.x * place, row.y * place, row.z, row.w)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -167,12 +179,16 @@ mod tests {
         let eye = Vec3::new(3.0, 20.0, 30.0);
         let look = rh::view::look_at_mat4(eye, Vec3::ZERO, Vec3::Y);
         for (lens, reversed) in lenses() {
-            // Warped as well: x and y lean on the distance.
-            for warp in
-                [Mat4::IDENTITY, Mat4::from_cols(Vec4::X, Vec4::Y, Vec4::new(0.2, -0.1, 1.0, 0.0), Vec4::W)]
-            {
+            // The picture leans on depth, or depth on the picture.
+            let shear = Mat4::from_cols(Vec4::X, Vec4::Y, Vec4::new(0.2, -0.1, 1.0, 0.0), Vec4::W);
+            let lean =
+                Mat4::from_cols(Vec4::X, Vec4::Y, Vec4::new(0.1, -0.05, 0.8, 0.0), Vec4::W).transpose();
+            for (warp, warped) in [(Mat4::IDENTITY, false), (shear, false), (lean, true)] {
                 let view = View::of_matrix(warp * lens * look, &BOX, SIZE).unwrap();
                 assert_eq!(view.is_reversed(), reversed, "{lens}");
+                // Oblique parallel rays do not meet their near plane at right angles.
+                let oblique = warp == shear && !view.is_perspective();
+                assert_eq!(view.is_warped(), warped || oblique, "{lens}");
                 for p in BOX.corners().chain([Vec3::new(1.0, 2.0, 3.0)]) {
                     let expected = view.depth_plane.dot(p.extend(1.0));
                     assert!((-1e-3..=1.001).contains(&expected), "{expected}");

@@ -97,7 +97,8 @@ impl ShadowMap {
             None => options.clone(),
         };
         let asks = options.cutouts && description.storage.keeps_ids();
-        let composition = Composition::new(description, asks)?;
+        let mut composition = Composition::new(description, asks)?;
+        composition.warped = options.warped;
         let description = &composition.description;
         check::device(device, description, options)?;
         let pipelines = options.pipelines.clone().unwrap_or_else(|| Pipelines::new(device));

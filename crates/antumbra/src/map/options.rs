@@ -20,6 +20,9 @@ pub struct Options {
     /// cut-outs, where the light's ray meets their triangles ([`ShadowMap::wgsl`](crate::ShadowMap::wgsl)). Else holes are as coarse as
     /// texels. Takes 48 bytes more for each triangle of the capacity. Other techniques ignore it.
     pub cutouts: bool,
+    /// Whether views may be warped ([`View::is_warped`](crate::View::is_warped)): maps that are filtered then take a
+    /// fifth longer to be made.
+    pub warped: bool,
 }
 
 impl From<Size> for Options {
@@ -31,6 +34,7 @@ impl From<Size> for Options {
             pipelines: None,
             capacity: Capacity::default(),
             cutouts: false,
+            warped: false,
         }
     }
 }
@@ -55,6 +59,11 @@ impl Options {
     #[must_use]
     pub fn capacity(self, capacity: Capacity) -> Self {
         Self { capacity, ..self }
+    }
+    /// The same for views that may be warped, or that may not.
+    #[must_use]
+    pub fn warped(self, warped: bool) -> Self {
+        Self { warped, ..self }
     }
     /// The same with lookups that ask about cut-outs, or without.
     #[must_use]
@@ -90,6 +99,14 @@ pub enum PrepareError {
         given: usize,
         /// Views that the map was made for.
         max: usize,
+    },
+    /// The map is not made for warped views.
+    #[error(
+        "views[{view}] is warped: its linear depth depends on the place in the picture; see Options::warped"
+    )]
+    Warped {
+        /// Index of the view.
+        view: usize,
     },
     /// Depth runs the other way than in the map.
     #[error(

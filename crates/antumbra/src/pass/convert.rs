@@ -7,6 +7,11 @@ use crate::{
     shader::{Composition, settings},
 };
 
+/// Linear depth of `depth` where it does not depend on the place in the picture.
+const STRAIGHT: &str = "(convert.linear_over.z * depth + convert.linear_over.w) / (convert.linear_under.z * depth + convert.linear_under.w)";
+/// Linear depth of `depth` at `uv` in any picture.
+const WARPED: &str = "raster_linear(vec3f(2.0 * uv.x - 1.0, 1.0 - 2.0 * uv.y, depth), convert.linear_over, convert.linear_under)";
+
 /// WGSL that gives encoded texels: `convert_source(p, which)` and `convert_layer(source, layer)`.
 #[derive(Debug)]
 pub(super) struct Source {
@@ -25,6 +30,7 @@ impl Source {
         };
         let glue = include_str!("convert/depth.wgsl.in")
             .replace("{members}", &members)
+            .replace("{linear}", if composition.warped { WARPED } else { STRAIGHT })
             .replace("{kind}", kind)
             .replace("{call}", &format!("{function}(source, layer)"));
         Self { wgsl: composition.for_convert() + &glue + depth, encode: map.encode }

@@ -18,6 +18,8 @@ pub(crate) struct Composition {
     pub(crate) description: Description,
     /// Whether lookups ask about cut-outs.
     pub(crate) asks: bool,
+    /// Whether views may be warped.
+    pub(crate) warped: bool,
     /// The technique's file and all that it needs, needs first.
     library: ShaderText,
     /// All that lookups take but for what is bound.
@@ -36,7 +38,7 @@ impl Composition {
     ) -> Result<Self, Unsupported> {
         let description = technique.describe(device)?;
         let asks = options.cutouts && description.storage.keeps_ids();
-        Self::new(description, asks)
+        Ok(Self { warped: options.warped, ..Self::new(description, asks)? })
     }
 
     /// Puts the WGSL of a description together.
@@ -52,7 +54,7 @@ impl Composition {
         if asks {
             looked_up.add(&["record"]);
         }
-        Ok(Self { description, asks, library, looked_up })
+        Ok(Self { description, asks, warped: false, library, looked_up })
     }
 
     /// The technique's functions for the passes between casting and lighting, which read settings from
