@@ -7,7 +7,7 @@
 mod common;
 
 use antumbra::{
-    Bounds, CasterMesh, Fit, Light, ShadowMap, Size,
+    Bounds, CasterMesh, Fit, Light, LightError, ShadowMap, Size, View,
     technique::{self, CasterStorage},
 };
 use common::{HEIGHT, WIDTH};
@@ -105,23 +105,13 @@ pub fn run(
     queue: &wgpu::Queue,
     spec: &str,
 ) -> Result<Vec<u8>, Box<dyn std::error::Error>> {
-    use wgpu::BufferUsages as Usage;
-    let (positions, uvs, indices) = vertices();
-    let triangles = indices.len() as u32 / 3;
-    let vertex = Usage::STORAGE | Usage::VERTEX;
-    let positions = common::buffer(device, bytemuck::cast_slice(&positions), vertex);
-    let uvs = common::buffer(device, bytemuck::cast_slice(&uvs), vertex);
-    let indices = common::buffer(device, bytemuck::cast_slice(&indices), Usage::INDEX | Usage::STORAGE);
+    let ([positions, uvs, indices], triangles) = buffers(device);
     let mask = mask(device, queue);
     let (holes, cut) = common::mask_group(device, &mask, &uvs);
 
     let technique = technique::parse(spec)?;
     let mut shadows = ShadowMap::new(device, technique.as_ref(), Size::square(1024))?;
-    let scene = Bounds { min: Vec3::new(-6.0, 0.0, -6.0), max: Vec3::new(6.0, 1.5, 6.0) };
-    let sun = Light::Directional { direction: Vec3::new(0.7, -1.0, -0.25) };
-    let (size, margin_texels) = (shadows.size(), shadows.margin_texels());
-    let view =
-        sun.view(&Fit { casters: scene, receivers: scene.corners().collect(), size, margin_texels })?;
+    let view = sun(&shadows)?;
 
     let source = shadows.wgsl(1).after(&format!("{MASK}{SHADER}"));
     let module = device.create_shader_module(wgpu::ShaderModuleDescriptor { label: None, source });
@@ -167,6 +157,32 @@ pub fn run(
         pass.set_bind_group(2, &cut, &[]);
         draw(pass);
     }))
+}
+
+/// Positions, texture coordinates and indices for vertex stages and for casters that read them, and the number of
+/// triangles.
+fn buffers(device: &wgpu::Device) -> ([wgpu::Buffer; 3], u32) {
+    use wgpu::BufferUsages as Usage;
+    let (positions, uvs, indices) = vertices();
+    let vertex = Usage::STORAGE | Usage::VERTEX;
+    let buffers = [
+        common::buffer(device, bytemuck::cast_slice(&positions), vertex),
+        common::buffer(device, bytemuck::cast_slice(&uvs), vertex),
+        common::buffer(device, bytemuck::cast_slice(&indices), Usage::INDEX | Usage::STORAGE),
+    ];
+    (buffers, indices.len() as u32 / 3)
+}
+
+/// The sun's view of the whole scene.
+fn sun(shadows: &ShadowMap) -> Result<View, LightError> {
+    let scene = Bounds { min: Vec3::new(-6.0, 0.0, -6.0), max: Vec3::new(6.0, 1.5, 6.0) };
+    let sun = Light::Directional { direction: Vec3::new(0.7, -1.0, -0.25) };
+    sun.view(&Fit {
+        casters: scene,
+        receivers: scene.corners().collect(),
+        size: shadows.size(),
+        margin_texels: shadows.margin_texels(),
+    })
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {

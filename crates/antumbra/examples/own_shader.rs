@@ -98,16 +98,7 @@ pub fn run(
         let technique = technique::parse(spec)?;
         let mut shadows =
             ShadowMap::new(device, technique.as_ref(), Options::from(Size::square(512)).views(3))?;
-        let views = sun.views(
-            &CameraFit {
-                camera: camera(),
-                scene: Bounds { min: Vec3::new(-20.0, -1.0, -80.0), max: Vec3::new(20.0, 5.0, 20.0) },
-                size: shadows.size(),
-                margin_texels: shadows.margin_texels(),
-            },
-            Cascades::new(3),
-        )?;
-        shadows.prepare(queue, &views)?;
+        shadows.prepare(queue, &sun.views(&fit(&shadows), Cascades::new(3))?)?;
         if shadows.description().storage == CasterStorage::Depth {
             // Of the views of `prepare`, or of several for each (`stratified`).
             let casts = shadows.caster_views().iter();
@@ -138,6 +129,16 @@ pub fn run(
             mesh.draw(pass);
         }
     }))
+}
+
+/// What the light's views are fitted to.
+fn fit(shadows: &ShadowMap) -> CameraFit {
+    CameraFit {
+        camera: camera(),
+        scene: Bounds { min: Vec3::new(-20.0, -1.0, -80.0), max: Vec3::new(20.0, 5.0, 20.0) },
+        size: shadows.size(),
+        margin_texels: shadows.margin_texels(),
+    }
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {

@@ -69,12 +69,7 @@ pub fn run(device: &wgpu::Device, queue: &wgpu::Queue) -> Result<Vec<u8>, Box<dy
 
     let mut encoder = device.create_command_encoder(&Default::default());
     {
-        let target = depths.create_view(&wgpu::TextureViewDescriptor {
-            dimension: Some(wgpu::TextureViewDimension::D2),
-            base_array_layer: layer,
-            array_layer_count: Some(1),
-            ..Default::default()
-        });
+        let target = one_layer(&depths, layer);
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
                 view: &target,
@@ -113,6 +108,16 @@ fn depths(device: &wgpu::Device, layers: u32) -> wgpu::Texture {
         format: common::DEPTH,
         usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
         view_formats: &[],
+    })
+}
+
+/// One of them.
+fn one_layer(depths: &wgpu::Texture, layer: u32) -> wgpu::TextureView {
+    depths.create_view(&wgpu::TextureViewDescriptor {
+        dimension: Some(wgpu::TextureViewDimension::D2),
+        base_array_layer: layer,
+        array_layer_count: Some(1),
+        ..Default::default()
     })
 }
 

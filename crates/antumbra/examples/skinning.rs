@@ -6,7 +6,7 @@
 mod common;
 
 use antumbra::{
-    Bounds, CasterMesh, Fit, Light, ShadowMap, Size,
+    Bounds, CasterMesh, Fit, Light, LightError, ShadowMap, Size, View,
     technique::{self, CasterStorage},
 };
 use common::{HEIGHT, WIDTH};
@@ -88,29 +88,17 @@ pub fn run(
     use wgpu::BufferUsages as Usage;
     let (vertices, indices) = rest();
     let (count, triangles) = (vertices.len() as u32, indices.len() as u32 / 3);
-    let knee = Vec3::new(0.0, 2.0, 0.0);
-    let bent = Mat4::from_translation(knee) * Mat4::from_rotation_x(0.9) * Mat4::from_translation(-knee);
-
     // What the skin reads, and what it writes: vertices for the camera, storage for casters that are triangles.
     let rest = common::buffer(device, bytemuck::cast_slice(&vertices), Usage::STORAGE);
-    let bones = common::buffer(device, bytemuck::cast_slice(&[Mat4::IDENTITY, bent]), Usage::STORAGE);
-    let positions = device.create_buffer(&wgpu::BufferDescriptor {
-        label: None,
-        size: 12 * u64::from(count),
-        usage: Usage::STORAGE | Usage::VERTEX,
-        mapped_at_creation: false,
-    });
+    let bones = common::buffer(device, bytemuck::cast_slice(&[Mat4::IDENTITY, knee()]), Usage::STORAGE);
+    let positions = positions(device, count);
     let indices = common::buffer(device, bytemuck::cast_slice(&indices), Usage::INDEX | Usage::STORAGE);
     let (layout, group) = common::storage_group(device, &[&rest, &bones, &positions]);
     let skin = common::compute_pipeline(device, wgpu::ShaderSource::Wgsl(SKIN.into()), &[Some(&layout)]);
 
     let technique = technique::parse(spec)?;
     let mut shadows = ShadowMap::new(device, technique.as_ref(), Size::square(1024))?;
-    let scene = Bounds { min: Vec3::new(-6.0, 0.0, -6.0), max: Vec3::new(6.0, 4.0, 6.0) };
-    let sun = Light::Directional { direction: Vec3::new(0.7, -1.0, -0.25) };
-    let (size, margin_texels) = (shadows.size(), shadows.margin_texels());
-    let view =
-        sun.view(&Fit { casters: scene, receivers: scene.corners().collect(), size, margin_texels })?;
+    let view = sun(&shadows)?;
 
     let source = shadows.wgsl(1).after(SHADER);
     let module = device.create_shader_module(wgpu::ShaderModuleDescriptor { label: None, source });
@@ -127,12 +115,7 @@ pub fn run(
 
     // Each frame: bones, then skin, then whatever reads the positions.
     let mut encoder = device.create_command_encoder(&Default::default());
-    {
-        let mut pass = encoder.begin_compute_pass(&Default::default());
-        pass.set_pipeline(&skin);
-        pass.set_bind_group(0, &group, &[]);
-        pass.dispatch_workgroups(count.div_ceil(64), 1, 1);
-    }
+    bend(&mut encoder, &skin, &group, count);
     shadows.prepare(queue, &[view])?;
     if shadows.description().storage == CasterStorage::Depth {
         shadows.encode(&mut encoder, |pass| {
@@ -154,6 +137,47 @@ pub fn run(
         pass.set_bind_group(1, shadows.bind_group(), &[]);
         draw(pass);
     }))
+}
+
+/// The bone below the knee, bent.
+fn knee() -> Mat4 {
+    let knee = Vec3::new(0.0, 2.0, 0.0);
+    Mat4::from_translation(knee) * Mat4::from_rotation_x(0.9) * Mat4::from_translation(-knee)
+}
+
+/// Room for so many positions that the skin writes.
+fn positions(device: &wgpu::Device, count: u32) -> wgpu::Buffer {
+    device.create_buffer(&wgpu::BufferDescriptor {
+        label: None,
+        size: 12 * u64::from(count),
+        usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::VERTEX,
+        mapped_at_creation: false,
+    })
+}
+
+/// Puts so many vertices where their bones are.
+fn bend(
+    encoder: &mut wgpu::CommandEncoder,
+    skin: &wgpu::ComputePipeline,
+    group: &wgpu::BindGroup,
+    count: u32,
+) {
+    let mut pass = encoder.begin_compute_pass(&Default::default());
+    pass.set_pipeline(skin);
+    pass.set_bind_group(0, group, &[]);
+    pass.dispatch_workgroups(count.div_ceil(64), 1, 1);
+}
+
+/// The sun's view of the whole scene.
+fn sun(shadows: &ShadowMap) -> Result<View, LightError> {
+    let scene = Bounds { min: Vec3::new(-6.0, 0.0, -6.0), max: Vec3::new(6.0, 4.0, 6.0) };
+    let sun = Light::Directional { direction: Vec3::new(0.7, -1.0, -0.25) };
+    sun.view(&Fit {
+        casters: scene,
+        receivers: scene.corners().collect(),
+        size: shadows.size(),
+        margin_texels: shadows.margin_texels(),
+    })
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {

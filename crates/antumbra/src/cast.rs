@@ -86,7 +86,7 @@ pub(crate) trait Plan {
 }
 
 /// A store on the GPU.
-pub(crate) trait Cast: Debug + Send + Sync {
+pub(crate) trait Cast: Debug + wgpu::WasmNotSendSync {
     /// Takes this frame's views.
     fn write(&self, _queue: &wgpu::Queue, _views: &[View]) {}
     /// Has casters drawn for one view.

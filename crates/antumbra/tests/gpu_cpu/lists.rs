@@ -74,6 +74,7 @@ fn found(gpu: &Gpu, shadows: &ShadowMap, view: u32) -> Found {
     let user = format!(
         "@group(1) @binding(0) var<storage, read> unused: array<f32>;
         @group(1) @binding(1) var<storage, read_write> results: array<f32>;
+        fn keep(p: vec3f) -> f32 {{ return shadow_visibility(p, p, p, p) + unused[0]; }}
         @compute @workgroup_size(64) fn main(@builtin(global_invocation_id) id: vec3u) {{
             let size = shadow_texels();
             if id.x >= size.x * size.y + {TRIANGLES}u {{ return; }}
@@ -95,8 +96,7 @@ fn found(gpu: &Gpu, shadows: &ShadowMap, view: u32) -> Found {
                 let n = shadow_entry({view}u, i);
                 results[me + 2u + i - start] = f32(n);
             }}
-        }}
-        fn keep(p: vec3f) -> f32 {{ return shadow_visibility(p, p, p, p) + unused[0]; }}",
+        }}",
         stride = MOST + 2,
     );
     let count = TEXELS + TRIANGLES as usize;

@@ -4,7 +4,7 @@ use super::{INPUTS, Row, SIZE, compare, compare_from, row, rows, run, shadows};
 use crate::common::{Random, Receiver, caster_mesh, visibility};
 use antumbra::{Capacity, Light, Options, ShadowMap, Size, technique};
 use antumbra_testing::Gpu;
-use glam::{DMat4, DVec3, Vec3};
+use glam::{DMat4, DVec3, Mat4, Vec3};
 
 /// A depth z is rounded by 6e-8, which the curve of a perspective depth magnifies by 1/(1 − (1 − r)z).
 pub(crate) fn raster_depth_is_linearised(gpu: &Gpu) {
@@ -54,9 +54,8 @@ pub(crate) fn raster_depth_is_cleaned(gpu: &Gpu) {
     assert_eq!(found, expected);
 }
 
-/// Positions up to 4, distances of 8 to 16: a few roundings, none magnified.
-pub(crate) fn receivers_are_projected(gpu: &Gpu) {
-    let shadows = shadows(gpu, &technique::Hard::default(), 1);
+/// The matrix of a spot above a box.
+fn spot() -> Mat4 {
     let bounds = antumbra::Bounds { min: Vec3::splat(-4.0), max: Vec3::splat(4.0) };
     let spot = Light::Spot {
         position: Vec3::new(1.0, 12.0, 2.0),
@@ -69,7 +68,13 @@ pub(crate) fn receivers_are_projected(gpu: &Gpu) {
         size: SIZE,
         margin_texels: 2.0,
     };
-    let matrix = spot.view(&fit).unwrap().clip_from_world;
+    spot.view(&fit).unwrap().clip_from_world
+}
+
+/// Positions up to 4, distances of 8 to 16: a few roundings, none magnified.
+pub(crate) fn receivers_are_projected(gpu: &Gpu) {
+    let shadows = shadows(gpu, &technique::Hard::default(), 1);
+    let matrix = spot();
     let m: Vec<String> = matrix.to_cols_array().iter().map(|v| format!("{v:?}")).collect();
     let rows = rows(7, |r| {
         let n = Vec3::new(r.range(-1.0, 1.0), r.range(-1.0, 1.0), r.range(-1.0, 1.0)).normalize();

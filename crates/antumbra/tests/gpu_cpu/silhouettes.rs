@@ -98,35 +98,17 @@ fn answers_where(
     visibility(gpu, &shadows, receivers)
 }
 
-/// Of a disc of small triangles, few points within two texels of the border are answered wrongly: bounds are
-/// what was measured and a fifth. That takes every step; without one there are more.
-pub(crate) fn fine_meshes(gpu: &Gpu) {
-    let points = around(&mut Random::new(27));
-    let places: Vec<Vec2> = points.iter().map(|p| p.0).collect();
-    let wrong = |technique: &dyn Technique| {
-        let found = answers(gpu, technique, &disc(), None, &receivers(&places, 1e-4));
-        let wrong = points.iter().zip(found).filter(|(p, f)| (*f < 0.5) != p.1).count();
-        wrong as f64 / points.len() as f64
-    };
-    const PUBLISHED: f64 = 0.065;
-    const MOST: f64 = 0.0285;
-    const FULL: f64 = 0.035;
-    const ROOM: f64 = 0.001;
-    let whole = [
-        ("spsm", MOST),
-        ("spsm.packing=texel", MOST),
-        ("spsm.packing=map", MOST),
-        ("spsm.layers=1", PUBLISHED),
-        ("dpm", FULL),
-        ("dpm.keeps=12", ROOM),
-    ];
-    for (spec, most) in whole {
-        let share = wrong(technique::parse(spec).unwrap().as_ref());
-        assert!(share < most, "{spec}: {share}");
-    }
+/// Shares of wrong answers that are allowed: as published, by default, of full texels, with room for all.
+const PUBLISHED: f64 = 0.065;
+const MOST: f64 = 0.0285;
+const FULL: f64 = 0.035;
+const ROOM: f64 = 0.001;
+
+/// What is wrong, the share that it exceeds, and a technique that does it.
+fn broken_silhouettes() -> [(&'static str, f64, Broken); 9] {
     let normal = "vec2f(cos(angle), sin(angle))";
     let open = "const spsm_open: f32 = 0.28";
-    let broken = [
+    [
         ("a flipped tangent", PUBLISHED, Broken::saying("spsm.layers=1", normal, &format!("-{normal}"))),
         (
             "no silhouette",
@@ -160,8 +142,32 @@ pub(crate) fn fine_meshes(gpu: &Gpu) {
             MOST,
             Broken::new("spsm").with(|described| described.storage = CasterStorage::NearestTriangle(CENTRES)),
         ),
+    ]
+}
+
+/// Of a disc of small triangles, few points within two texels of the border are answered wrongly: bounds are
+/// what was measured and a fifth. That takes every step; without one there are more.
+pub(crate) fn fine_meshes(gpu: &Gpu) {
+    let points = around(&mut Random::new(27));
+    let places: Vec<Vec2> = points.iter().map(|p| p.0).collect();
+    let wrong = |technique: &dyn Technique| {
+        let found = answers(gpu, technique, &disc(), None, &receivers(&places, 1e-4));
+        let wrong = points.iter().zip(found).filter(|(p, f)| (*f < 0.5) != p.1).count();
+        wrong as f64 / points.len() as f64
+    };
+    let whole = [
+        ("spsm", MOST),
+        ("spsm.packing=texel", MOST),
+        ("spsm.packing=map", MOST),
+        ("spsm.layers=1", PUBLISHED),
+        ("dpm", FULL),
+        ("dpm.keeps=12", ROOM),
     ];
-    for (what, most, broken) in broken {
+    for (spec, most) in whole {
+        let share = wrong(technique::parse(spec).unwrap().as_ref());
+        assert!(share < most, "{spec}: {share}");
+    }
+    for (what, most, broken) in broken_silhouettes() {
         let share = wrong(&broken);
         assert!(share > most, "{what}: {share}");
     }
