@@ -103,7 +103,7 @@ pub struct About {
 /// // `ShadowMap::new(&device, &Pale { darkness: 0.7 }, …)` takes it; what it composes needs no device:
 /// let options = Options::from(Size::square(1024));
 /// let wgsl = ShaderText::receiver(&Pale { darkness: 0.7 }, &Capabilities::full(), &options, 2)?;
-/// assert!(wgsl.text().contains("fn pale_darkness() -> f32"));
+/// assert!(wgsl.text().contains("fn shadow_pale_darkness() -> f32"));
 /// # Ok::<(), Unsupported>(())
 /// ```
 ///
@@ -122,7 +122,9 @@ pub struct About {
 /// [`Description::widths`], and what comes with [`Description::blur`] and with what is kept of
 /// casters ([`CasterStorage`]). If there are [classes](Description::classes) it also defines `x_class`, with
 /// the same parameters. The first line may be `//! needs a b`: shared files, and slots that
-/// [`Description::slots`] fill.
+/// [`Description::slots`] fill. What is compared with the casters' own depth goes through `stored_depth` (needs
+/// `stored`) or `reference_depth` (needs `reference`), or else maps of [reversed](crate::Depth::reversed) depth are
+/// refused. In users' modules all of these names begin with `shadow_`.
 pub trait Technique: Debug + Send + Sync {
     /// Returns its name, title, family, paper.
     fn about(&self) -> About;

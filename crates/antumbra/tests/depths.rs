@@ -8,7 +8,7 @@ use antumbra::{
     CasterError, Depth, NoProbe, PrepareError, ShadowMap, Size, Technique, Unsupported, View, technique,
     technique::CasterStorage,
 };
-use antumbra_testing::{Gpu, Trials};
+use antumbra_testing::{Gpu, Trials, broken::Broken};
 use common::{Random, Receiver, depth_layers, view, visibility};
 use glam::{Mat4, Vec4};
 
@@ -146,6 +146,21 @@ fn misuse_is_told(gpu: &Gpu) {
         assert!(matches!(error, Unsupported::Depth { what: "layers", .. }), "{error}");
         assert!(error.to_string().contains(&format!("{layers:?}")), "{error}");
     }
+    // A technique that compares the depth as it comes.
+    let careless = Broken::saying(
+        "hard",
+        "let reference = reference_depth(depth, dot(plane, centre - uv));",
+        "let reference = depth;",
+    );
+    let careless = careless.with(|described| {
+        described.wgsl = described.wgsl.replace("//! needs reference", "").into();
+        described.slots.clear();
+        described.constants.clear();
+    });
+    ShadowMap::from_depth(&gpu.device, &careless, &texture, SIZE).unwrap();
+    let error =
+        ShadowMap::from_depth(&gpu.device, &careless, Depth::new(&texture).reversed(), SIZE).unwrap_err();
+    assert!(error.to_string().contains("stored_depth"), "{error}");
     plain.prepare(&gpu.queue, &[view(SIZE)]).unwrap();
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     let error = plain.encode(&mut encoder, |_| panic!("nothing is drawn")).unwrap_err();

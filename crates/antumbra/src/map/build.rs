@@ -99,6 +99,9 @@ impl ShadowMap {
         let asks = options.cutouts && description.storage.keeps_ids();
         let mut composition = Composition::new(description, asks)?;
         composition.warped = options.warped;
+        if depth.is_some_and(Depth::is_reversed) {
+            composition.takes_reversed_depth()?;
+        }
         let description = &composition.description;
         check::device(device, description, options)?;
         let pipelines = options.pipelines.clone().unwrap_or_else(|| Pipelines::new(device));

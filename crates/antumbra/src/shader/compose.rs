@@ -57,6 +57,23 @@ impl Composition {
         Ok(Self { description, asks, warped: false, library, looked_up })
     }
 
+    /// Whether all that is compared with stored depth can be turned around.
+    ///
+    /// # Errors
+    /// [`Unsupported::Depth`].
+    pub(crate) fn takes_reversed_depth(&self) -> Result<(), Unsupported> {
+        let turns = self.looked_up.pieces.iter().any(|(file, _)| file == "stored_reversed.wgsl");
+        if turns || !self.description.reads_depth() {
+            return Ok(());
+        }
+        let name = self.description.about.name;
+        Err(Unsupported::Depth {
+            what: "direction",
+            found: "reversed".into(),
+            needed: format!("depth that grows, since the WGSL of {name} compares it without stored_depth"),
+        })
+    }
+
     /// The technique's functions for the passes between casting and lighting, which read settings from
     /// `convert`.
     pub(crate) fn for_convert(&self) -> String {
