@@ -131,7 +131,7 @@ fn arrange(scene: &mut Scene, arguments: &Arrangement) -> Result<()> {
     Ok(())
 }
 
-/// A built-in scene or a file, not yet validated.
+/// A built-in scene or a file, as it comes; whoever changes it validates it again.
 pub(crate) fn open(name: &str, seed: u64, file: &FileArguments) -> Result<Scene> {
     if let Some(procedural) = procedural::by_name(name) {
         file.check_built_in(name)?;

@@ -98,7 +98,7 @@
 //! | `msm` | [`Msm`] | 8 bytes, 1⅓ times with mips | 1 | bleeds only where three casters overlap, at half the memory of `evsm`; more arithmetic at lookup |
 //! | `lvsm` | [`Lvsm`] | 16·⌈L/2⌉ bytes, 1⅓ times with mips | ⌈L/2⌉ | bleeds only within an interval of depth; memory grows with the intervals |
 //! | `rgsm` | [`Rgsm`] | 16 bytes | 9, or n² | edges finer than texels where triangles are larger than those; elsewhere no better than `hard` |
-//! | `spsm` | [`Spsm`] | 16 bytes, 32 with 2 layers | 1 to 19, silhouettes up to 3 times that | edges finer than texels, hard; draws casters twice from storage buffers ([`CasterMesh`]), slow without a GPU |
+//! | `spsm` | [`Spsm`] | 16 bytes, 32 with 2 layers | 1 to 5, at edges up to 9 more for each layer and 9 for centres | edges finer than texels, hard; draws casters twice from storage buffers ([`CasterMesh`]), slow without a GPU |
 //! | `dpm` | [`Dpm`] | 4 bytes and 4 per triangle kept, 48 per triangle of the scene | 4 per triangle kept, 10 more where some are missing | what rays see where texels have room; hard; frays where more small triangles share a texel than are kept |
 //! | `exact` | [`Exact`] | 16 bytes and 4 per triangle in it, 48 per triangle of the scene | 2 and 4 per triangle in a list | what rays see, whatever the size of the map; memory follows from the scene ([`Capacity`]) |
 //!

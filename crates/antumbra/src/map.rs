@@ -1,4 +1,4 @@
-//! The shadow map on the GPU. Only this file and those in `map/` create GPU objects.
+//! The shadow map on the GPU: what is allocated, encoded and bound. Only files in `map/` and `cast/` create GPU objects.
 
 use crate::{
     capabilities::Capabilities,

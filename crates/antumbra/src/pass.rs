@@ -207,7 +207,7 @@ fn combine(how: Combine) -> String {
         Combine::Mean => include_str!("pass/combine/mean.wgsl").into(),
         Combine::Greatest => include_str!("pass/combine/greatest.wgsl").into(),
         Combine::LogMean(c) => {
-            include_str!("pass/combine/log_mean.wgsl").replace(": f32 = 80.0", &format!(": f32 = {c:?}"))
+            format!("const combine_steepness: f32 = {c:?};\n{}", include_str!("pass/combine/log_mean.wgsl"))
         }
     }
 }

@@ -9,15 +9,15 @@ use std::sync::atomic::Ordering;
 
 impl ShadowMap {
     /// Draws the casters of every view and filters what they leave. `draw` gets a pass with a depth
-    /// attachment of [`DEPTH_FORMAT`](crate::DEPTH_FORMAT), cleared to 1, and no colour, which knows its
+    /// attachment of [`DEPTH_FORMAT`](crate::DEPTH_FORMAT), cleared to 1, which knows its
     /// [`view`](CasterPass::view); a technique that draws casters several times asks for each of
     /// [`caster_views`](Self::caster_views).
     ///
     /// Where the technique's [`storage`](crate::Description::storage) is
     /// [`CasterStorage::Depth`](crate::technique::CasterStorage::Depth), pipelines of the caller's own draw;
     /// casters in front of the near plane must be clamped (`unclipped_depth`) or moved
-    /// ([`CASTER_WGSL`](crate::CASTER_WGSL)) onto it. Else [`CasterPass::draw_mesh`] does, and `draw` is
-    /// called once per layer of
+    /// ([`CASTER_WGSL`](crate::CASTER_WGSL)) onto it. Else [`CasterPass::draw_mesh`] does, with pipelines of the
+    /// library's, and `draw` is called once per view, once per layer of
     /// [`CasterStorage::NearestTriangle`](crate::technique::CasterStorage::NearestTriangle), twice for
     /// [`CasterStorage::ABuffer`](crate::technique::CasterStorage::ABuffer).
     ///

@@ -11,6 +11,9 @@
 //! logarithm instead, with the log of the sum of powers in place of every sum, allows 16 bits per
 //! texel and any c, for more arithmetic; c then only has to leave the rounding of z invisible.
 //!
+//! WGSL reads c as `esm_c()`; with logarithms interpolation between texels has it as the constant `level_steepness`, and
+//! blur and mips as `combine_steepness`.
+//!
 //! Annen, Mertens, Seidel, Flerackers, Kautz 2008, "Exponential shadow maps". Logarithms: Salvi
 //! 2008, "Rendering filtered shadows with exponential shadow maps".
 
@@ -146,6 +149,7 @@ impl Esm {
         self.custom == Custom::Four && self.filter.sampling != Sampling::Summed
     }
 
+    /// The common file and an ending: how failing pixels are found defines `esm_visibility`.
     fn wgsl(&self) -> &'static str {
         macro_rules! files {
             ($($file:literal),*) => { concat!(include_str!("esm.wgsl"), $(include_str!($file)),*) };

@@ -1,7 +1,5 @@
-/// Texels t stand for e^(steepness · t).
-const combine_steepness: f32 = 80.0;
-
-/// A weighted sum of powers so far, divided by the greatest of them.
+/// A weighted sum of powers so far, divided by the greatest of them. Texels t stand for e^(`combine_steepness` · t), a
+/// constant that is written in front.
 struct Combine { top: vec4f, sum: vec4f }
 
 fn combine_none() -> Combine {
