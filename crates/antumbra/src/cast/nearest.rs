@@ -38,8 +38,8 @@ pub(super) struct NearestPlan<'a> {
 
 impl NearestPlan<'_> {
     fn shader(&self, pass: TrianglePass, holes: Holes<'_>) -> Shader {
-        // Least depths are planes, which corners tell unless vertices are shared or depth may not be unclamped.
-        let own_depth = !self.device.clamps_depth() || pass == TrianglePass::Indexed(Coverage::Touched);
+        // At centres depth is a plane, which corners tell unless depth may not be unclamped.
+        let own_depth = !self.device.clamps_depth() || pass.reaches();
         let depth = if own_depth {
             include_str!("nearest/depth_own.wgsl.in")
         } else {

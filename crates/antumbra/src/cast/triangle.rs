@@ -31,6 +31,14 @@ impl TrianglePass {
             Self::Pulled(coverage, false) | Self::Indexed(coverage) => [reach(coverage), "false"],
         }
     }
+
+    /// Whether texels may belong to it whose centres are beyond the triangle.
+    pub(super) fn reaches(self) -> bool {
+        match self {
+            Self::Any => true,
+            Self::Pulled(coverage, _) | Self::Indexed(coverage) => coverage == Coverage::Touched,
+        }
+    }
 }
 
 /// How parts of triangles are left out.

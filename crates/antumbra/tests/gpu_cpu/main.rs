@@ -191,6 +191,7 @@ const COMPARISONS: &[Comparison] = &[
     ("records keep every bit", lists::records_keep_every_bit),
     ("long thin triangles are met", lists::thin_triangles_are_met),
     ("silhouettes of fine meshes are recovered", silhouettes::fine_meshes),
+    ("steep triangles stay behind", silhouettes::steep_triangles_stay_behind),
     ("sheets count among closed casters", silhouettes::sheets_count_among_closed_casters),
     ("edges of large triangles are smooth", silhouettes::edges_are_smooth),
     ("holes of cut-outs stay open", silhouettes::holes_stay_open),

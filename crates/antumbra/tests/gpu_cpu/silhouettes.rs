@@ -173,6 +173,30 @@ pub(crate) fn fine_meshes(gpu: &Gpu) {
     }
 }
 
+/// Behind a sheet it is dark, though in every texel there is also a triangle so steep that its plane would come
+/// before the sheet half a texel away.
+pub(crate) fn steep_triangles_stay_behind(gpu: &Gpu) {
+    let sheet = [Vec2::new(-4.0, -4.0), Vec2::new(140.0, -4.0), Vec2::new(-4.0, 140.0)];
+    let mut casters: Vec<Vec3> = sheet.into_iter().map(|p| placed(p, 0.3)).collect();
+    for i in 0..MAP.width * MAP.height {
+        let at = Vec2::new((i % MAP.width) as f32 + 0.3, (i / MAP.width) as f32 + 0.3);
+        casters.extend(
+            [(0.0, 0.0, 0.6), (0.03, 0.09, 0.8), (0.06, 0.0, 0.7)]
+                .map(|(x, y, depth)| placed(at + Vec2::new(x, y), depth)),
+        );
+    }
+    let mut random = Random::new(41);
+    let points: Vec<Vec2> =
+        (0..2000).map(|_| Vec2::new(random.range(2.0, 62.0), random.range(2.0, 62.0))).collect();
+    let between: Vec<Receiver> =
+        receivers(&points, 1e-4).into_iter().map(|r| Receiver { depth: 0.5, ..r }).collect();
+    for spec in ["spsm", "spsm.layers=1", "spsm.packing=map,layers=1", "dpm", "exact"] {
+        let found = answers(gpu, technique::parse(spec).unwrap().as_ref(), &casters, None, &between);
+        let lit = found.iter().filter(|v| **v >= 0.5).count();
+        assert_eq!(lit, 0, "{spec}: of {}", points.len());
+    }
+}
+
 /// Below a single sheet, whichever side it shows, and before far sides that fill texels it is dark, and lit
 /// beside it, from a texel off its edge on.
 pub(crate) fn sheets_count_among_closed_casters(gpu: &Gpu) {
