@@ -221,7 +221,7 @@ fn broken() -> Vec<(&'static str, usize, Broken)> {
         Broken::new(spec).with(move |described| described.maps.iter_mut().for_each(|map| map.format = format))
     };
     let unbiased = |spec| Broken::new(spec).with(|described| described.bias = BiasTerms::NONE);
-    let aside = "compare, uv + vec2f(0.5) / vec2f(textureDimensions(casters)), view";
+    let aside = "compare, uv + vec2f(0.5) / tile_size(view), view";
     // Mips spread what an empty texel stores: the bounds were measured with the level of the longer side.
     let zero = Broken::saying(
         "esm.kernel=5,sampling=trilinear",

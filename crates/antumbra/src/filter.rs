@@ -242,12 +242,9 @@ impl Filter {
         if let (Combine::LogMean(c), false) = (values.combine, self.sampling == Sampling::Nearest) {
             constants.push(Constant::Number("level_steepness", c));
         }
-        if self.sampling == Sampling::Fitted {
-            constants.push(match self.adapted() {
-                Some(_) => Constant::Count("blur_layers", values.layers),
-                // The same for texels of all sizes.
-                None => Constant::Number("blur_everywhere", self.blur().variance(1.0)),
-            });
+        if self.sampling == Sampling::Fitted && self.adapted().is_none() {
+            // The same for texels of all sizes.
+            constants.push(Constant::Number("blur_everywhere", self.blur().variance(1.0)));
         }
         if self.sampling == Sampling::Anisotropic {
             constants.push(Constant::Count("lookup_most_taps", self.anisotropy));

@@ -49,8 +49,6 @@ pub const DEPTH_FORMAT: TextureFormat = TextureFormat::Depth32Float;
 #[derive(Debug)]
 pub struct ShadowMap {
     technique: Box<dyn Technique>,
-    /// Step of the caller's depth, and whether it falls with the distance.
-    brought: Option<(f32, bool)>,
     composition: Composition,
     capabilities: Capabilities,
     options: Options,

@@ -23,6 +23,8 @@ pub use listing::Shader;
 #[derive(Debug, Clone, Default)]
 pub struct ShaderText {
     pieces: Vec<(String, String)>,
+    /// Files that fill slots which others need.
+    filled: Vec<&'static str>,
     /// The word that names begin with in the user's module; none where the library is alone.
     prefix: Option<String>,
 }

@@ -24,14 +24,14 @@ struct Own {
     edit: Edit,
 }
 
-const WGSL: &str = "//! needs lookup
+const WGSL: &str = "//! needs lookup tile
 
 fn own_encode(depth: f32, layer: u32) -> vec4f {
     return vec4f(exp(own_c() * depth), 0.0, 0.0, 0.0);
 }
 
 fn own_visibility(map: LookupMap, map_sampler: sampler, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f) -> f32 {
-    return min(exp(-own_c() * depth) * lookup_filtered(map, map_sampler, uv, view, ddx, ddy).x, 1.0);
+    return min(exp(-own_c() * depth) * lookup_filtered(map, map_sampler, uv, view, tile_layer(view), ddx, ddy).x, 1.0);
 }
 ";
 

@@ -129,7 +129,7 @@ impl Storage {
             let _ = write!(
                 wgsl,
                 "@group({group}) @binding({binding}) var {name}: texture_2d_array<u32>;\n\
-                 fn {name}_load(view: u32, at: vec2u, layer: u32) -> u32 {{ return textureLoad({name}, at, view * {layers}u + layer, 0).x; }}\n\
+                 fn {name}_load(view: u32, at: vec2u, layer: u32) -> u32 {{ return textureLoad({name}, at, tile_layer(view) * {layers}u + layer, 0).x; }}\n\
                  fn {name}_size() -> vec2u {{ return textureDimensions({name}); }}\n"
             );
             binding += 1;

@@ -15,8 +15,8 @@ pub enum CasterStorage {
     /// slope: vec2f, alone: bool) -> vec4u`, what a texel stores. All zeros are an empty texel.
     NearestTriangle(&'static [Coverage]),
     /// All triangles that touch each texel, drawn from [`CasterMesh`](crate::CasterMesh)es by the library's
-    /// pipelines. The technique's WGSL calls `shadow_texels() -> vec2u`, the map's size; `shadow_list(view:
-    /// u32, texel: vec2u) -> vec2u`, the first entry of a texel's list and the one behind its last;
+    /// pipelines. The technique's WGSL calls `shadow_list(view: u32, texel: vec2i) -> vec2u`, the first
+    /// entry of the list of a view's texel and the one behind its last;
     /// `shadow_entry(view: u32, i: u32) -> u32`, the id of the triangle of an entry; and what all ids lead
     /// to: `shadow_corner(view: u32, id: u32, corner: u32) -> vec3f`, x and y in texels of the map, y down, z
     /// the depth as rasterised, and `shadow_stops(view: u32, id: u32, a: vec3f, b: vec3f, c: vec3f) -> bool`,
@@ -31,8 +31,8 @@ pub enum CasterStorage {
     /// centres ([`Binding::Depth`](super::Binding::Depth)).
     ///
     /// The technique's WGSL calls `shadow_key(i: u32) -> u32`: of each texel the keys of its triangles, as in
-    /// `key.wgsl`, the greatest first, 0 where there are fewer; those of texel (x, y) begin at `k` · ((view ·
-    /// height + y) · width + x). `shadow_key_bits() -> u32` are the bits of a triangle's id in them, and
+    /// `key.wgsl`, the greatest first, 0 where there are fewer; those of a texel begin at `k` ·
+    /// `tile_index(view, texel)`. `shadow_key_bits() -> u32` are the bits of a triangle's id in them, and
     /// `shadow_near_over_far(view: u32) -> f32`, 1 for the sun, makes depth linear. Ids lead to corners as in
     /// [`ABuffer`](Self::ABuffer).
     KBuffer {

@@ -136,10 +136,10 @@ impl View {
         let shift = Vec3::new(-2.0 * offset.x / size.width as f32, 2.0 * offset.y / size.height as f32, 0.0);
         let shift = Mat4::from_translation(shift);
         // Points of the shifted picture come from where they were.
-        let back = |row: Vec4| (shift.inverse().transpose()) * row;
+        let back = shift.inverse().transpose();
         Self {
             clip_from_world: shift * self.clip_from_world,
-            linear_from_clip: self.linear_from_clip.map(back),
+            linear_from_clip: self.linear_from_clip.map(|row| back * row),
             ..*self
         }
     }

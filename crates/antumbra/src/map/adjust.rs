@@ -18,9 +18,7 @@ impl ShadowMap {
     pub fn adjust(&mut self, technique: &dyn Technique) -> Result<(), Unsupported> {
         technique::check(technique)?;
         let mut description = technique.describe(&self.capabilities)?;
-        if let Some((quantum, reversed)) = self.brought {
-            description.bring(quantum, reversed);
-        }
+        self.textures.bring(&mut description);
         if !same_but_for_numbers(&description, self.description()) {
             return Err(Unsupported::Fixed {
                 has: technique::spec(self.technique.as_ref()),

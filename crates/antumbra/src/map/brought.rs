@@ -96,14 +96,14 @@ impl<'a> Depth<'a> {
     pub(super) fn is_reversed(&self) -> bool {
         self.reversed
     }
+}
 
-    /// Step of the stored depth as a share of its range, 0 for floats.
-    pub(super) fn quantum(&self) -> f32 {
-        match self.texture.format() {
-            TextureFormat::Depth16Unorm => 1.0 / f32::from(u16::MAX),
-            TextureFormat::Depth24Plus | TextureFormat::Depth24PlusStencil8 => 1.0 / ((1 << 24) - 1) as f32,
-            _ => 0.0,
-        }
+/// Step of the stored depth as a share of its range, 0 for floats.
+pub(super) fn quantum(texture: &wgpu::Texture) -> f32 {
+    match texture.format() {
+        TextureFormat::Depth16Unorm => 1.0 / f32::from(u16::MAX),
+        TextureFormat::Depth24Plus | TextureFormat::Depth24PlusStencil8 => 1.0 / ((1 << 24) - 1) as f32,
+        _ => 0.0,
     }
 }
 

@@ -3,7 +3,7 @@
 use super::{
     Capabilities, Depth, Options, Pipelines, ShadowMap, Textures, Uniforms,
     answer::{self, Refusal},
-    check,
+    brought, check,
     draw::Draw,
     receiver::Samplers,
 };
@@ -91,14 +91,12 @@ impl ShadowMap {
         let options = &match depth {
             Some(depth) => {
                 let (size, views) = depth.check(description.sample_offsets.len() as u32)?;
-                description.bring(depth.quantum(), depth.is_reversed());
+                description.bring(brought::quantum(depth.texture()), depth.is_reversed());
                 Options { size, views, ..options.clone() }
             }
             None => options.clone(),
         };
-        let asks = options.cutouts && description.storage.keeps_ids();
-        let mut composition = Composition::new(description, asks)?;
-        composition.warped = options.warped;
+        let composition = Composition::new(description, options)?;
         if depth.is_some_and(Depth::is_reversed) {
             composition.takes_reversed_depth()?;
         }
@@ -122,7 +120,6 @@ impl ShadowMap {
         let casts = description.sample_offsets.len();
         Ok(Self {
             technique: technique.clone_box(),
-            brought: depth.map(|depth| (depth.quantum(), depth.is_reversed())),
             composition,
             capabilities,
             options: options.clone(),

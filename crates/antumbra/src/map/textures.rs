@@ -134,6 +134,13 @@ impl Textures {
         self.casters_lifetime == Lifetime::Borrowed
     }
 
+    /// What follows for receivers if it is.
+    pub(super) fn bring(&self, description: &mut Description) {
+        if self.is_brought() {
+            description.bring(brought::quantum(&self.casters), self.reversed);
+        }
+    }
+
     pub(super) fn maps(&self) -> &[Kept] {
         &self.maps
     }

@@ -36,25 +36,26 @@ impl Composition {
         device: &Capabilities,
         options: &Options,
     ) -> Result<Self, Unsupported> {
-        let description = technique.describe(device)?;
-        let asks = options.cutouts && description.storage.keeps_ids();
-        Ok(Self { warped: options.warped, ..Self::new(description, asks)? })
+        Self::new(technique.describe(device)?, options)
     }
 
     /// Puts the WGSL of a description together.
     ///
     /// # Errors
     /// [`Unsupported::Description`].
-    pub(crate) fn new(description: Description, asks: bool) -> Result<Self, Unsupported> {
+    pub(crate) fn new(description: Description, options: &Options) -> Result<Self, Unsupported> {
         let wrong = |error| Unsupported::Description { technique: description.about.name.into(), error };
         description.check().map_err(wrong)?;
-        let library = ShaderText::library(&description).map_err(wrong)?;
+        let slots = filled(&description);
+        let library = ShaderText::library(&description, &slots).map_err(wrong)?;
         let mut looked_up = library.clone();
+        looked_up.need("tile", &slots).map_err(wrong)?;
         looked_up.add(&["receiver"]);
+        let asks = options.cutouts && description.storage.keeps_ids();
         if asks {
             looked_up.add(&["record"]);
         }
-        Ok(Self { description, asks, warped: false, library, looked_up })
+        Ok(Self { description, asks, warped: options.warped, library, looked_up })
     }
 
     /// Whether all that is compared with stored depth can be turned around.
@@ -62,8 +63,7 @@ impl Composition {
     /// # Errors
     /// [`Unsupported::Depth`].
     pub(crate) fn takes_reversed_depth(&self) -> Result<(), Unsupported> {
-        let turns = self.looked_up.pieces.iter().any(|(file, _)| file == "stored_reversed.wgsl");
-        if turns || !self.description.reads_depth() {
+        if self.library.filled.contains(&"stored_reversed") || !self.description.reads_depth() {
             return Ok(());
         }
         let name = self.description.about.name;
@@ -77,21 +77,26 @@ impl Composition {
     /// The technique's functions for the passes between casting and lighting, which read settings from
     /// `convert`.
     pub(crate) fn for_convert(&self) -> String {
-        self.library.text() + &settings::accessors(&self.description, Reader::Convert)
+        self.library.text() + &settings::accessors(self, Reader::Convert)
     }
 
     /// The technique's functions for passes that bind nothing of the library's.
     pub(crate) fn alone(&self) -> ShaderText {
         let mut shader = self.library.clone();
-        shader.push("settings", &settings::accessors(&self.description, Reader::Alone));
+        shader.push("settings", &settings::accessors(self, Reader::Alone));
         shader
     }
 }
 
+/// The files that fill slots: what a technique says, and what follows from where views lie.
+fn filled(description: &Description) -> Vec<&'static str> {
+    description.slots.iter().copied().chain(["tile_whole"]).collect()
+}
+
 impl ShaderText {
     /// The technique's own file and all that it needs, constants replaced.
-    fn library(description: &Description) -> Result<Self, DescriptionError> {
-        let Description { about, wgsl, slots, constants, .. } = description;
+    fn library(description: &Description, slots: &[&'static str]) -> Result<Self, DescriptionError> {
+        let Description { about, wgsl, constants, .. } = description;
         let mut shader = Self::of("raster", slots)?;
         shader.need_all(wgsl, slots)?;
         shader.push(about.name, wgsl);
@@ -101,7 +106,7 @@ impl ShaderText {
     }
 
     /// A shared file with all that it needs.
-    pub(super) fn of(stem: &str, slots: &[&str]) -> Result<Self, DescriptionError> {
+    pub(super) fn of(stem: &str, slots: &[&'static str]) -> Result<Self, DescriptionError> {
         let mut shader = Self::default();
         shader.need(stem, slots)?;
         Ok(shader)
@@ -120,14 +125,16 @@ impl ShaderText {
         self.pieces.push((format!("{name}.wgsl"), format!("{text}{end}")));
     }
 
-    fn need_all(&mut self, text: &str, slots: &[&str]) -> Result<(), DescriptionError> {
+    fn need_all(&mut self, text: &str, slots: &[&'static str]) -> Result<(), DescriptionError> {
         let needs = text.lines().next().and_then(|line| line.strip_prefix("//! needs ")).unwrap_or_default();
         needs.split_whitespace().try_for_each(|stem| self.need(stem, slots))
     }
 
-    fn need(&mut self, stem: &str, slots: &[&str]) -> Result<(), DescriptionError> {
+    fn need(&mut self, stem: &str, slots: &[&'static str]) -> Result<(), DescriptionError> {
         let slot = format!("{stem}_");
-        let stem = slots.iter().find(|file| file.starts_with(&slot)).copied().unwrap_or(stem);
+        let filled = slots.iter().find(|file| file.starts_with(&slot)).copied();
+        self.filled.extend(filled);
+        let stem = filled.unwrap_or(stem);
         let name = format!("{stem}.wgsl");
         if self.pieces.iter().any(|(n, _)| *n == name) {
             return Ok(());

@@ -45,6 +45,7 @@ pub(super) const FILES: &[(&str, &str)] = &[
     ("taps_merged", include_str!("taps/merged.wgsl")),
     ("taps_nearest", include_str!("taps/nearest.wgsl")),
     ("taps_weights", include_str!("taps/weights.wgsl")),
+    ("tile_whole", include_str!("tile/whole.wgsl")),
     ("words_1", include_str!("words/1.wgsl")),
     ("words_2", include_str!("words/2.wgsl")),
     ("words_4", include_str!("words/4.wgsl")),

@@ -142,7 +142,11 @@ mod tests {
         fn shadow_visibility() -> bool { return shadow_covers(1u); } // taps_sum\n";
 
     fn text(prefix: Option<&str>) -> ShaderText {
-        ShaderText { pieces: vec![("a.wgsl".into(), TEXT.into())], prefix: prefix.map(String::from) }
+        ShaderText {
+            pieces: vec![("a.wgsl".into(), TEXT.into())],
+            prefix: prefix.map(String::from),
+            ..ShaderText::default()
+        }
     }
 
     #[test]

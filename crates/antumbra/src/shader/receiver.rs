@@ -22,7 +22,7 @@ impl Composition {
         let (group, first) = at;
         let description = &self.description;
         let mut glue = uniforms(description, views, at);
-        glue += &settings::accessors(description, Reader::Receiver);
+        glue += &settings::accessors(self, Reader::Receiver);
         let arguments = bindings(&mut glue, description, at);
         glue += &plan.lookups(group, first + description.bindings.len() as u32 + 1);
         glue += &function(description, &arguments, "visibility", ["f32", "1.0"]);

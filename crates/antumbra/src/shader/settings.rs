@@ -1,5 +1,6 @@
 //! The settings of a technique in WGSL: members of uniform structs, and the functions that read them.
 
+use super::Composition;
 use crate::describe::Description;
 
 /// Where a text finds the settings.
@@ -25,8 +26,9 @@ pub(crate) fn per_view(description: &Description) -> impl Iterator<Item = String
 }
 
 /// The functions through which the WGSL of a technique named `x` reads them: `x_setting() -> f32`,
-/// `x_width(view: u32) -> f32` and `shadow_blur(view: u32) -> f32`.
-pub(crate) fn accessors(description: &Description, reader: Reader) -> String {
+/// `x_width(view: u32) -> f32` and `shadow_blur(view: u32) -> f32`. And those that the files of the slot `tile` call.
+pub(crate) fn accessors(composition: &Composition, reader: Reader) -> String {
+    let Composition { description, .. } = composition;
     let technique = description.about.name;
     let once = description.settings.iter().zip(once(description)).map(|((name, value), member)| {
         let read = match reader {
@@ -48,5 +50,14 @@ pub(crate) fn accessors(description: &Description, reader: Reader) -> String {
             };
             format!("fn {name}(view: u32) -> f32 {{ return {read}; }}\n")
         });
-    once.chain(per_view).collect()
+    once.chain(per_view).chain([places(reader)]).collect()
+}
+
+/// `shadow_size() -> vec2f`, texels of a layer. Numbers where nothing is looked up.
+fn places(reader: Reader) -> String {
+    let size = match reader {
+        Reader::Receiver => "vec2f(shadow.width, shadow.height)",
+        Reader::Convert | Reader::Alone => "vec2f(1.0)",
+    };
+    format!("fn shadow_size() -> vec2f {{ return {size}; }}\n")
 }

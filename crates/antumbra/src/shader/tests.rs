@@ -33,8 +33,7 @@ fn variants() -> Vec<Box<dyn Technique>> {
 /// What is composed of a technique.
 fn composed(technique: &dyn Technique, device: &Capabilities, asks: bool) -> Composition {
     let description = technique.describe(device).unwrap();
-    let asks = asks && description.storage.keeps_ids();
-    Composition::new(description, asks).unwrap()
+    Composition::new(description, &options().cutouts(asks)).unwrap()
 }
 
 /// What a library file may look like: names, kinds of declaration, docs, sampling.
@@ -130,13 +129,16 @@ fn files_that_break_a_rule_are_found() {
 fn every_shared_file_validates_with_its_needs_and_nothing_else() {
     for (stem, _) in FILES {
         for parts in [
-            ["blur_fixed", "level_hardware", "words_1", "reference_exact", "points_map"],
-            ["blur_adaptive", "level_manual", "words_2", "reference_stepped", "points_texel"],
-            ["blur_fixed", "level_logarithmic", "words_4", "reference_exact", "points_map"],
+            ["blur_fixed", "level_hardware", "words_1", "reference_exact", "points_map", "tile_whole"],
+            ["blur_adaptive", "level_manual", "words_2", "reference_stepped", "points_texel", "tile_whole"],
+            ["blur_fixed", "level_logarithmic", "words_4", "reference_exact", "points_map", "tile_whole"],
         ] {
             let mut text = ShaderText::of(stem, &parts).unwrap().text();
-            if text.contains("shadow_blur(") {
-                text += "fn shadow_blur(view: u32) -> f32 { return 0.0; }\n";
+            for function in ["shadow_blur(view: u32) -> f32", "shadow_size() -> vec2f"] {
+                let (name, result) = (function.split('(').next(), function.split("-> ").nth(1));
+                if name.is_some_and(|name| text.contains(&format!("{name}("))) {
+                    text += &format!("fn {function} {{ return {}(); }}\n", result.unwrap_or_default());
+                }
             }
             let module = validate(&text).unwrap_or_else(|e| panic!("{stem}: {e}"));
             assert!(module.global_variables.is_empty(), "{stem} binds something");
@@ -263,7 +265,7 @@ fn an_error_is_found_at_its_file_and_line() {
 fn refusal(edit: impl Fn(&mut Description)) -> DescriptionError {
     let mut described = technique::hard::Hard::default().describe(&Capabilities::full()).unwrap();
     edit(&mut described);
-    match Composition::new(described, false) {
+    match Composition::new(described, &options()) {
         Err(Unsupported::Description { technique, error }) if technique == "hard" => error,
         other => panic!("{other:?}"),
     }
@@ -356,7 +358,7 @@ fn names_of_users_and_of_other_maps_are_free() {
     for technique in technique::all() {
         let description = technique.describe(&Capabilities::full()).unwrap();
         let name = description.about.name;
-        let text = receiver(&Composition::new(description, false).unwrap(), &Capabilities::full());
+        let text = receiver(&Composition::new(description, &options()).unwrap(), &Capabilities::full());
         let raw = ShaderText { prefix: None, ..text.clone() }.text();
         let own = names::globals(&raw).filter(|name| !name.to_lowercase().starts_with(names::PREFIX));
         let user: String = own.map(|name| format!("const {name} = 1;\n")).collect();

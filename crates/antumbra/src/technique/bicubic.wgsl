@@ -1,4 +1,4 @@
-//! needs reference
+//! needs reference tile
 
 /// Weights of the four texels along one axis, the second of which lies `f` texels before the receiver:
 /// the uniform cubic B-spline.
@@ -12,7 +12,7 @@ fn bicubic_weights(f: f32) -> vec4f {
 /// lookups [Sigg & Hadwiger 2005]: one between two texels, at the fraction b/(a + b) and with the weight
 /// a + b, gives the first the weight a and the second b.
 fn bicubic_visibility(casters: texture_depth_2d_array, compare: sampler_comparison, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f) -> f32 {
-    let size = vec2f(textureDimensions(casters));
+    let size = tile_size(view);
     let place = uv * size - 0.5;
     let x = bicubic_weights(fract(place.x));
     let y = bicubic_weights(fract(place.y));
@@ -28,7 +28,7 @@ fn bicubic_visibility(casters: texture_depth_2d_array, compare: sampler_comparis
             let low = first + 2.0 * vec2f(f32(column), f32(row));
             let point = (low + vec2f(at_x[column], at_y[row])) / size;
             let gain = dot(plane, (low + 0.5) / size - uv) - 0.5 * dot(abs(plane), 1.0 / size);
-            lit += weight_x[column] * weight_y[row] * textureSampleCompareLevel(casters, compare, point, view, reference_depth(depth, gain));
+            lit += weight_x[column] * weight_y[row] * textureSampleCompareLevel(casters, compare, tile_uv(view, point), tile_layer(view), reference_depth(depth, gain));
         }
     }
     // Floats that sum to one may exceed it by some roundings.

@@ -1,4 +1,4 @@
-//! needs lookup
+//! needs lookup tile
 
 /// Terms of the series, M.
 const csm_terms: u32 = 16;
@@ -71,7 +71,7 @@ fn csm_visibility(map: LookupMap, map_sampler: sampler, uv: vec2f, view: u32, de
     var basis = vec4f(one, csm_add(one, two));
     var sum = 0.5;
     for (var layer = 0u; layer < layers; layer += 1u) {
-        let filtered = lookup_filtered(map, map_sampler, uv, view * layers + layer, ddx, ddy);
+        let filtered = lookup_filtered(map, map_sampler, uv, view, tile_layer(view) * layers + layer, ddx, ddy);
         sum += csm_layer(basis, filtered, layer);
         basis = vec4f(csm_add(basis.xy, four), csm_add(basis.zw, four));
     }

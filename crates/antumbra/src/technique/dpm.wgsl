@@ -1,4 +1,4 @@
-//! needs key ray samples spline
+//! needs key ray samples spline tile
 
 /// Triangles per texel.
 const dpm_keeps: u32 = 4;
@@ -18,8 +18,7 @@ const dpm_uncertain: u32 = 2;
 /// Whether the caster at a texel's centre is nearer than a receiver at `point`. `gain` is the receiver's
 /// plane per texel.
 fn dpm_occluded(casters: texture_depth_2d_array, texel: vec2i, point: vec2f, view: u32, depth: f32, gain: vec2f) -> bool {
-    let inside = clamp(texel, vec2i(0), vec2i(textureDimensions(casters)) - 1);
-    return textureLoad(casters, inside, view, 0) < depth + dot(gain, vec2f(texel) + 0.5 - point);
+    return textureLoad(casters, tile_texel(view, texel), tile_layer(view), 0) < depth + dot(gain, vec2f(texel) + 0.5 - point);
 }
 
 /// Class of a receiver.
@@ -30,9 +29,8 @@ fn dpm_occluded(casters: texture_depth_2d_array, texel: vec2i, point: vec2f, vie
 /// other winding. Unless some single sheet is missing, which the texel's centre is asked for. There the receiver's
 /// own surface must not count: it gets as much room as it rises within a texel.
 fn dpm_class_at(casters: texture_depth_2d_array, point: vec2f, view: u32, depth: f32, gain: vec2f) -> u32 {
-    let size = textureDimensions(casters);
-    let texel = min(vec2u(max(point, vec2f(0.0))), size - 1u);
-    let start = ((view * size.y + texel.y) * size.x + texel.x) * dpm_keeps;
+    let texel = min(vec2u(max(point, vec2f(0.0))), vec2u(tile_size(view)) - 1u);
+    let start = tile_index(view, texel) * dpm_keeps;
     let bits = shadow_key_bits();
     let step = key_step(key_linear(depth, shadow_near_over_far(view)), bits);
     let ray = vec3f(point, 0.0);
@@ -95,7 +93,7 @@ fn dpm_lights(casters: texture_depth_2d_array, point: vec2f, view: u32, depth: f
 /// under any light. Of several samples those in the pixel's corners come first, and the others only where
 /// these differ.
 fn dpm_visibility(casters: texture_depth_2d_array, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f) -> f32 {
-    let size = vec2f(textureDimensions(casters));
+    let size = tile_size(view);
     if dpm_samples == 1u {
         return select(0.0, 1.0, dpm_lights(casters, uv * size, view, depth, plane / size));
     }
@@ -116,6 +114,6 @@ fn dpm_visibility(casters: texture_depth_2d_array, uv: vec2f, view: u32, depth: 
 
 /// Class of a receiver at a pixel's centre. Arguments as dpm_visibility.
 fn dpm_class(casters: texture_depth_2d_array, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f) -> u32 {
-    let size = vec2f(textureDimensions(casters));
+    let size = tile_size(view);
     return dpm_class_at(casters, uv * size, view, depth, plane / size);
 }

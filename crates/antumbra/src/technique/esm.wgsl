@@ -1,4 +1,4 @@
-//! needs lookup
+//! needs lookup tile
 
 /// 0 if the map holds powers e^(c z), 1 if it holds z, filtered as if it held powers.
 const esm_logarithms: u32 = 0;

@@ -1,4 +1,4 @@
-//! needs chebyshev lookup
+//! needs chebyshev lookup tile
 
 /// Warps that are kept: 2, or the positive one alone.
 const evsm_warps: u32 = 2;
@@ -38,7 +38,7 @@ fn evsm_bound(depth: f32, moments: vec4f, least_variance: f32) -> f32 {
 
 /// One filtered lookup; the receiver's own slope widens the least variance by the chain rule.
 fn evsm_visibility(map: LookupMap, map_sampler: sampler, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f) -> f32 {
-    let least = evsm_least_variance() + evsm_slope() * chebyshev_slope(plane, vec2f(textureDimensions(map)));
-    let moments = lookup_filtered(map, map_sampler, uv, view, ddx, ddy);
+    let least = evsm_least_variance() + evsm_slope() * chebyshev_slope(plane, tile_size(view));
+    let moments = lookup_filtered(map, map_sampler, uv, view, tile_layer(view), ddx, ddy);
     return evsm_bound(depth, moments, least);
 }

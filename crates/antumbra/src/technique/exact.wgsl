@@ -1,11 +1,10 @@
-//! needs ray
+//! needs ray tile
 
 /// 0 if any triangle of the list of the receiver's texel is between it and the light, else 1. `depth` is
 /// projected depth, in which triangles are planes under any light.
 fn exact_visibility(uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f) -> f32 {
-    let size = shadow_texels();
-    let point = uv * vec2f(size);
-    let list = shadow_list(view, min(vec2u(max(point, vec2f(0.0))), size - 1u));
+    let point = uv * tile_size(view);
+    let list = shadow_list(view, vec2i(point));
     for (var i = list.x; i < list.y; i += 1u) {
         let id = shadow_entry(view, i);
         let ray = vec3f(point, 0.0);

@@ -1,4 +1,4 @@
-//! needs reference
+//! needs reference tile
 
 /// Most lookups.
 const footprint_budget: u32 = 16;
@@ -17,7 +17,7 @@ fn footprint_counts(texels: vec2f) -> vec2f {
 /// Mean of bilinear comparisons over the parallelogram that the pixel covers in the map [Reeves et al.
 /// 1987].
 fn footprint_visibility(casters: texture_depth_2d_array, compare: sampler_comparison, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f) -> f32 {
-    let size = vec2f(textureDimensions(casters));
+    let size = tile_size(view);
     let counts = footprint_counts(vec2f(length(ddx * size), length(ddy * size)));
     let half_gain = 0.5 * dot(abs(plane), 1.0 / size);
     var lit = 0.0;
@@ -27,7 +27,7 @@ fn footprint_visibility(casters: texture_depth_2d_array, compare: sampler_compar
             // Where the four texels of the lookup meet.
             let corner = (floor(place * size - 0.5) + 1.0) / size;
             let reference = reference_depth(depth, dot(plane, corner - uv) - half_gain);
-            lit += textureSampleCompareLevel(casters, compare, place, view, reference);
+            lit += textureSampleCompareLevel(casters, compare, tile_uv(view, place), tile_layer(view), reference);
         }
     }
     // Some divisions round n / n up.

@@ -1,4 +1,4 @@
-//! needs chebyshev lookup
+//! needs chebyshev lookup tile
 
 /// Depth intervals, two per texel.
 const lvsm_intervals: u32 = 4;

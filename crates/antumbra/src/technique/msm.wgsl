@@ -1,4 +1,4 @@
-//! needs chebyshev lookup
+//! needs chebyshev lookup tile
 
 /// 1 if moments are stored by the transform for 16 bits, 0 if as they are.
 const msm_transformed: u32 = 1;
@@ -79,7 +79,7 @@ fn msm_bound(depth: f32, moments: vec4f) -> f32 {
 
 /// One filtered lookup.
 fn msm_visibility(map: LookupMap, map_sampler: sampler, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f) -> f32 {
-    var moments = lookup_filtered(map, map_sampler, uv, view, ddx, ddy);
+    var moments = lookup_filtered(map, map_sampler, uv, view, tile_layer(view), ddx, ddy);
     if msm_transformed == 1u {
         moments = msm_restore(moments);
     }

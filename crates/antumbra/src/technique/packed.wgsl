@@ -1,4 +1,4 @@
-//! needs reference
+//! needs reference tile
 
 /// Phases along one side: one for a footprint of 2×2 texels, two for one of 4×4.
 const packed_phases: u32 = 1;
@@ -37,14 +37,13 @@ fn packed_returned(mean: f32) -> f32 {
 /// four depths per phase. A texel's four surround its lower left corner, half a texel away, so the
 /// lookup is half a texel up and right [figure 6].
 fn packed_visibility(packed: texture_2d_array<f32>, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f) -> f32 {
-    let size = textureDimensions(packed);
-    let texel = 1.0 / vec2f(size);
+    let texel = 1.0 / tile_size(view);
     let middle = floor(uv / texel + vec2f(0.5, -0.5));
     var sum = 0.0;
     for (var row = 0u; row < packed_phases; row += 1u) {
         for (var column = 0u; column < packed_phases; column += 1u) {
             let phase = middle + 2.0 * vec2f(f32(column), f32(row)) - f32(packed_phases - 1u);
-            let four = textureLoad(packed, clamp(vec2i(phase), vec2i(0), vec2i(size) - 1), view, 0);
+            let four = textureLoad(packed, tile_texel(view, vec2i(phase)), tile_layer(view), 0);
             let gain = dot(plane, (phase + vec2f(0.0, 1.0)) * texel - uv);
             let shadow = packed_shadow(four, depth, gain, 0.5 * plane * texel);
             sum += select(shadow, packed_byte(shadow), packed_in_bytes == 1u);

@@ -1,4 +1,4 @@
-//! needs reference spin
+//! needs reference spin tile
 
 /// Number of lookups.
 const poisson_points: u32 = 16;
@@ -10,7 +10,7 @@ const poisson_golden = vec2f(-0.73736887807832, 0.67549029426152);
 /// Mean of bilinear comparisons at the points of a disk poisson_diameter texels wide around uv. Point i of n lies
 /// at the radius √((i + ½)/n), turned by the golden angle from the one before [Vogel 1979].
 fn poisson_visibility(casters: texture_depth_2d_array, compare: sampler_comparison, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f) -> f32 {
-    let texel = 1.0 / vec2f(textureDimensions(casters));
+    let texel = 1.0 / tile_size(view);
     let turn = 0.5 * poisson_diameter(view) * spin_rotation(uv, ddx, ddy);
     let centre = vec2f(poisson_centre[0], poisson_centre[1]);
     let origin = uv / texel - vec2f(turn.x * centre.x - turn.y * centre.y, turn.y * centre.x + turn.x * centre.y);
@@ -22,7 +22,7 @@ fn poisson_visibility(casters: texture_depth_2d_array, compare: sampler_comparis
         // Where the four texels of the lookup meet.
         let corner = (floor(place - 0.5) + 1.0) * texel;
         let reference = reference_depth(depth, dot(plane, corner - uv) - half_gain);
-        lit += textureSampleCompareLevel(casters, compare, place * texel, view, reference);
+        lit += textureSampleCompareLevel(casters, compare, tile_uv(view, place * texel), tile_layer(view), reference);
         direction = mat2x2f(poisson_golden, vec2f(-poisson_golden.y, poisson_golden.x)) * direction;
     }
     // Some divisions round n / n up.

@@ -1,4 +1,4 @@
-//! needs coverage packing
+//! needs coverage packing tile
 
 /// Texels along one side of the square whose triangles the receiver's ray is intersected with.
 const rgsm_neighbours: u32 = 3;
@@ -7,8 +7,8 @@ const rgsm_compares: u32 = 1;
 
 /// The words that a texel stores; none, as an empty texel, beside the map.
 fn rgsm_load(map: texture_2d_array<u32>, texel: vec2i, view: u32) -> vec4u {
-    let inside = all(texel >= vec2i(0)) && all(texel < vec2i(textureDimensions(map)));
-    return select(vec4u(0u), textureLoad(map, texel, view, 0), inside);
+    let inside = all(texel >= vec2i(0)) && all(texel < vec2i(tile_size(view)));
+    return select(vec4u(0u), textureLoad(map, tile_texel(view, texel), tile_layer(view), 0), inside);
 }
 
 /// Whether the receiver's ray passes through the triangle stored by the texel whose centre it passes at
@@ -30,7 +30,7 @@ fn rgsm_before(words: vec4u, at: vec2f, depth: f32, size: vec2f) -> bool {
 /// what an ordinary map answers. `depth` and `plane` are of projected depth, in which triangles are
 /// planes under any light.
 fn rgsm_visibility(map: texture_2d_array<u32>, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f) -> f32 {
-    let size = vec2f(textureDimensions(map));
+    let size = tile_size(view);
     let point = uv * size;
     let reach = i32(rgsm_neighbours / 2u);
     var met = false;

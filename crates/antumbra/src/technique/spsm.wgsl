@@ -1,4 +1,4 @@
-//! needs coverage packing samples spline
+//! needs coverage packing samples spline tile
 
 /// Positions along one side of a pixel at which shadows are asked.
 const spsm_samples: u32 = 1;
@@ -58,8 +58,8 @@ fn spsm_tangents(pattern: u32) -> u32 {
 
 /// The words that a texel stores in a layer; none, as an empty texel, beside the map.
 fn spsm_load(map: texture_2d_array<u32>, texel: vec2i, view: u32, layer: u32) -> vec4u {
-    let inside = all(texel >= vec2i(0)) && all(texel < vec2i(textureDimensions(map)));
-    return select(vec4u(0u), textureLoad(map, texel, view * spsm_layers + layer, 0), inside);
+    let inside = all(texel >= vec2i(0)) && all(texel < vec2i(tile_size(view)));
+    return select(vec4u(0u), textureLoad(map, tile_texel(view, texel), tile_layer(view) * spsm_layers + layer, 0), inside);
 }
 
 /// Whether a point, relative to the texel's centre like the lines, is inside all three.
@@ -152,7 +152,7 @@ fn spsm_step(entry: u32) -> vec2i {
 /// between: one that the other layer stores there, or one of the three texels next to the receiver.
 /// With one layer nothing else could tell of it.
 fn spsm_own(map: texture_2d_array<u32>, point: vec2f, view: u32, depth: f32, gain: vec2f) -> u32 {
-    let size = vec2f(textureDimensions(map));
+    let size = tile_size(view);
     let texel = vec2i(floor(point));
     let centre = floor(point) + 0.5;
     let at = point - centre;
@@ -198,7 +198,7 @@ fn spsm_met(map: texture_2d_array<u32>, point: vec2f, view: u32, depth: f32, siz
 
 /// One of the classes above [Lecocq et al. 2014, §4.1]. Bindings and arguments as spsm_visibility.
 fn spsm_class(map: texture_2d_array<u32>, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f) -> u32 {
-    let size = vec2f(textureDimensions(map));
+    let size = tile_size(view);
     let found = spsm_own(map, uv * size, view, depth, plane / size);
     if found < spsm_around {
         return found;
@@ -274,7 +274,7 @@ fn spsm_silhouette(map: texture_2d_array<u32>, point: vec2f, view: u32, entries:
 /// Whether an uncertain receiver is lit, by the silhouette [Lecocq et al. 2014, §4.2]: along each tangent
 /// the line between the corners next to the receiver, which is shadowed if it is behind all of them.
 fn spsm_recover(map: texture_2d_array<u32>, point: vec2f, view: u32, depth: f32, gain: vec2f) -> bool {
-    let size = vec2f(textureDimensions(map));
+    let size = tile_size(view);
     let texel = vec2i(floor(point));
     let receiver = vec3f(gain, depth + dot(gain, floor(point) + 0.5 - point));
     let casters = spsm_casters(map, texel, view, receiver, size);
@@ -298,7 +298,7 @@ fn spsm_recover(map: texture_2d_array<u32>, point: vec2f, view: u32, depth: f32,
 ///
 /// The centres are asked first: it takes no triangle to tell that most receivers in shadow are.
 fn spsm_lights(map: texture_2d_array<u32>, uv: vec2f, view: u32, depth: f32, plane: vec2f) -> bool {
-    let size = vec2f(textureDimensions(map));
+    let size = tile_size(view);
     let point = uv * size;
     let found = spsm_own(map, point, view, depth, plane / size);
     if found < spsm_around {
@@ -323,7 +323,7 @@ fn spsm_visibility(map: texture_2d_array<u32>, uv: vec2f, view: u32, depth: f32,
     if spsm_samples == 1u {
         return select(0.0, 1.0, spsm_lights(map, uv, view, depth, plane));
     }
-    let size = vec2f(textureDimensions(map));
+    let size = tile_size(view);
     let reach = 0.5 * (abs(ddx) + abs(ddy)) * size;
     if max(reach.x, reach.y) < 0.5 && spsm_own(map, uv * size, view, depth, plane / size) == spsm_lit {
         return 1.0;

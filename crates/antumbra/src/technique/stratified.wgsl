@@ -1,4 +1,4 @@
-//! needs reference
+//! needs reference tile
 
 /// Samples along one side of a texel.
 const stratified_grid: u32 = 2;
@@ -13,15 +13,15 @@ fn stratified_encode(depth: f32, layer: u32) -> vec4f {
 fn stratified_visibility(samples: texture_2d_array<f32>, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f) -> f32 {
     const COUNT = stratified_grid * stratified_grid;
     const LAYERS = (COUNT + 3u) / 4u;
-    let size = textureDimensions(samples);
-    let texel = clamp(vec2i(floor(uv * vec2f(size))), vec2i(0), vec2i(size) - 1);
+    let size = tile_size(view);
+    let texel = clamp(floor(uv * size), vec2f(0.0), size - 1.0);
     let n = f32(stratified_grid);
     // Of the first sample, and of a step to the next.
-    let step = plane / (n * vec2f(size));
-    let gain = dot(plane, vec2f(texel) / vec2f(size) - uv) + 0.5 * (step.x + step.y);
+    let step = plane / (n * size);
+    let gain = dot(plane, texel / size - uv) + 0.5 * (step.x + step.y);
     var lit = 0.0;
     for (var layer = 0u; layer < LAYERS; layer += 1u) {
-        let four = textureLoad(samples, texel, view * LAYERS + layer, 0);
+        let four = textureLoad(samples, tile_texel(view, vec2i(texel)), tile_layer(view) * LAYERS + layer, 0);
         for (var channel = 0u; channel < 4u; channel += 1u) {
             let k = 4u * layer + channel;
             let here = gain + f32(k % stratified_grid) * step.x + f32(k / stratified_grid) * step.y;

@@ -1,4 +1,4 @@
-//! needs chebyshev lookup
+//! needs chebyshev lookup tile
 
 /// 1 if the receiver's own slope widens the least variance, 0 if the casters' is in the square.
 const vsm_slope_of_receiver: u32 = 1;
@@ -27,10 +27,10 @@ fn vsm_bound(depth: f32, moments: vec2f, least_variance: f32) -> f32 {
 
 /// One filtered lookup [Donnelly & Lauritzen 2006].
 fn vsm_visibility(map: LookupMap, map_sampler: sampler, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f) -> f32 {
-    let moments = lookup_filtered(map, map_sampler, uv, view, ddx, ddy).xy;
+    let moments = lookup_filtered(map, map_sampler, uv, view, tile_layer(view), ddx, ddy).xy;
     var least = vsm_least_variance();
     if vsm_slope_of_receiver == 1u {
-        least += vsm_slope() * chebyshev_slope(plane, vec2f(textureDimensions(map)));
+        least += vsm_slope() * chebyshev_slope(plane, tile_size(view));
     }
     return vsm_bound(depth, moments, least);
 }

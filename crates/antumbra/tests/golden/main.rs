@@ -75,7 +75,7 @@ fn main() {
         image.compare(&Image::read(&path("vsm")).unwrap(), TOLERANCE).unwrap_err();
         image.compare(&Image::read(&path("hard")).unwrap(), TOLERANCE).unwrap_err();
     });
-    let aside = "compare, uv + vec2f(0.5) / vec2f(textureDimensions(casters)), view";
+    let aside = "compare, uv + vec2f(0.5) / tile_size(view), view";
     for (what, broken) in [
         ("half a texel aside", Broken::saying("pcf", "compare, uv, view", aside)),
         ("weights that do not sum to one", Broken::new("pcf").weights(0.97)),

@@ -76,7 +76,7 @@ fn found(gpu: &Gpu, shadows: &ShadowMap, view: u32) -> Found {
         @group(1) @binding(1) var<storage, read_write> results: array<f32>;
         fn keep(p: vec3f) -> f32 {{ return shadow_visibility(p, p, p, p) + unused[0]; }}
         @compute @workgroup_size(64) fn main(@builtin(global_invocation_id) id: vec3u) {{
-            let size = shadow_texels();
+            let size = vec2u(tile_size(0u));
             if id.x >= size.x * size.y + {TRIANGLES}u {{ return; }}
             let me = id.x * {stride}u;
             if id.x >= size.x * size.y {{
@@ -86,7 +86,7 @@ fn found(gpu: &Gpu, shadows: &ShadowMap, view: u32) -> Found {
                 }}
                 return;
             }}
-            let texel = vec2u(id.x % size.x, id.x / size.x);
+            let texel = vec2i(vec2u(id.x % size.x, id.x / size.x));
             let list = shadow_list({view}u, texel);
             let start = list.x;
             let end = list.y;

@@ -77,7 +77,7 @@ pub(crate) fn lookups_interpolate(gpu: &Gpu) {
     ] {
         let spec = format!("vsm.anisotropy=5,sampling={sampling}");
         let shadows = shadows(gpu, technique::parse(&spec).unwrap().as_ref(), 12);
-        let body = "put4(0u, lookup_filtered(shadow_binding_0, shadow_binding_1, take2(0u), 0u, take2(2u), take2(4u)));";
+        let body = "put4(0u, lookup_filtered(shadow_binding_0, shadow_binding_1, take2(0u), 0u, 0u, take2(2u), take2(4u)));";
         let found = run::<4>(gpu, &shadows, body, &rows);
         let levels = pyramid(gpu, shadows.map_texture(0).unwrap());
         let error = 2.0 * sampler_error(gpu);
@@ -100,7 +100,7 @@ pub(crate) fn logarithms_interpolate_as_powers(gpu: &Gpu) {
         let side = r.range(0.25, 3.0).exp2() / 64.0;
         row([r.unit(), r.unit(), side, 0.0, 0.0, side])
     });
-    let body = "put(0u, lookup_filtered(shadow_binding_0, shadow_binding_1, take2(0u), 0u, take2(2u), take2(4u)).x);";
+    let body = "put(0u, lookup_filtered(shadow_binding_0, shadow_binding_1, take2(0u), 0u, 0u, take2(2u), take2(4u)).x);";
     let found = run::<1>(gpu, &shadows, body, &rows);
     let levels = pyramid(gpu, shadows.map_texture(0).unwrap());
     let powers: Vec<Vec<f64>> =
@@ -216,7 +216,7 @@ pub(crate) fn sums_are_means_over_boxes(gpu: &Gpu) {
         // Where two pipelines round texels of one depth to different bytes.
         let bytes = spec == "csm" && !gpu.is_software();
         let rounding = if bytes { 1.0 / 255.0 } else { 4e-5 };
-        let body = "put(0u, lookup_filtered(shadow_binding_0, shadow_binding_1, take2(0u), 0u, take2(2u), take2(4u)).x);";
+        let body = "put(0u, lookup_filtered(shadow_binding_0, shadow_binding_1, take2(0u), 0u, 0u, take2(2u), take2(4u)).x);";
         let found = run::<1>(gpu, &summed, body, &rows);
         let mean = |shift: f64| {
             let image = &image;
@@ -245,7 +245,7 @@ pub(crate) fn sums_are_exact_at_2048(gpu: &Gpu) {
         let rows: Vec<Row> = rows(20, |r| row([1.0 - 0.02 * r.unit(), 1.0 - 0.02 * r.unit()]));
         let body = "
             let d = vec2f(1e-9);
-            put(0u, lookup_filtered(shadow_binding_0, shadow_binding_1, take2(0u), 0u, d, d).x);";
+            put(0u, lookup_filtered(shadow_binding_0, shadow_binding_1, take2(0u), 0u, 0u, d, d).x);";
         let found = run::<1>(gpu, &shadows, body, &rows);
         let csm = technique::csm::Csm { terms: 2, ..technique::csm::Csm::default() };
         let value = |x: usize, y: usize| {

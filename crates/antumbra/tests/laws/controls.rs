@@ -21,11 +21,7 @@ fn comparison() -> Vec<Control> {
         (
             "half a texel aside",
             shrinks_to_the_hard_shadow,
-            Broken::saying(
-                "pcf",
-                "compare, uv, view",
-                "compare, uv + vec2f(0.5) / vec2f(textureDimensions(casters)), view",
-            ),
+            Broken::saying("pcf", "compare, uv, view", "compare, uv + vec2f(0.5) / tile_size(view), view"),
         ),
         (
             "no half texel towards the four texels' corner",
@@ -35,7 +31,7 @@ fn comparison() -> Vec<Control> {
         (
             "the first view's samples always",
             views_do_not_matter,
-            Broken::saying("stratified", "view * LAYERS + layer", "layer"),
+            Broken::saying("stratified", "tile_layer(view) * LAYERS + layer", "layer"),
         ),
         (
             "the sum of points instead of their mean",
@@ -45,7 +41,7 @@ fn comparison() -> Vec<Control> {
         (
             "the neighbouring texel",
             shrinks_to_the_hard_shadow,
-            Broken::saying("hard", "compare, centre, view", "compare, centre + 1.0 / size, view"),
+            Broken::saying("hard", "tile_uv(view, centre)", "tile_uv(view, centre + 1.0 / size)"),
         ),
         (
             "the first view's depth always",
@@ -80,7 +76,7 @@ fn basis() -> Vec<Control> {
         (
             "the first view's layer always",
             views_do_not_matter,
-            Broken::saying("esm", "map_sampler, uv, view, ddx", "map_sampler, uv, 0u, ddx"),
+            Broken::saying("esm", "uv, view, tile_layer(view), ddx", "uv, view, 0u, ddx"),
         ),
     ]
 }

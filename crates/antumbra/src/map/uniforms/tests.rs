@@ -48,7 +48,7 @@ fn rust_view(description: &Description) -> Layout {
 }
 
 fn composed(technique: &dyn Technique) -> Composition {
-    Composition::new(technique.describe(&Capabilities::least()).unwrap(), false).unwrap()
+    Composition::new(technique.describe(&Capabilities::least()).unwrap(), &Size::square(64).into()).unwrap()
 }
 
 /// The receiver's text for three views.

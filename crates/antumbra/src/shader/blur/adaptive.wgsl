@@ -1,7 +1,4 @@
-/// Layers of the map per view.
-const blur_layers: u32 = 1;
-
-/// Variance of the blur in a layer of the map, in squares of texels: that of the view to which it belongs.
-fn blur_variance(layer: u32) -> f32 {
-    return shadow_blur(layer / blur_layers);
+/// Variance of the blur in a view, in squares of texels.
+fn blur_variance(view: u32) -> f32 {
+    return shadow_blur(view);
 }

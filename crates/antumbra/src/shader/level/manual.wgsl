@@ -1,13 +1,15 @@
+//! needs tile
+
 /// The four texels around uv at mip level `level`, with bilinear weights: for formats that the
 /// device cannot filter. Texels come through the (nearest) sampler: some drivers give all lanes of
-/// a textureLoad, or of textureDimensions, the level of the first.
-fn level_bilinear(map: texture_2d_array<f32>, map_sampler: sampler, uv: vec2f, layer: u32, level: f32) -> vec4f {
-    let size = vec2f(max(textureDimensions(map) >> vec2u(u32(level)), vec2u(1u)));
+/// a textureLoad the level of the first.
+fn level_bilinear(map: texture_2d_array<f32>, map_sampler: sampler, uv: vec2f, view: u32, layer: u32, level: f32) -> vec4f {
+    let size = tile_level_size(view, level);
     let p = uv * size - 0.5;
     let corner = floor(p);
     let weight = p - corner;
-    let low = (clamp(corner, vec2f(0.0), size - 1.0) + 0.5) / size;
-    let high = (clamp(corner + 1.0, vec2f(0.0), size - 1.0) + 0.5) / size;
+    let low = tile_place(view, clamp(corner, vec2f(0.0), size - 1.0) + 0.5, level);
+    let high = tile_place(view, clamp(corner + 1.0, vec2f(0.0), size - 1.0) + 0.5, level);
     let top = mix(
         textureSampleLevel(map, map_sampler, low, layer, level),
         textureSampleLevel(map, map_sampler, vec2f(high.x, low.y), layer, level),
@@ -22,9 +24,9 @@ fn level_bilinear(map: texture_2d_array<f32>, map_sampler: sampler, uv: vec2f, l
 }
 
 /// One bilinear lookup at a whole mip level, or between two, in the shader.
-fn level_filtered(map: texture_2d_array<f32>, map_sampler: sampler, uv: vec2f, layer: u32, level: f32) -> vec4f {
-    let l = clamp(level, 0.0, f32(textureNumLevels(map) - 1u));
-    let fine = level_bilinear(map, map_sampler, uv, layer, floor(l));
-    let coarse = level_bilinear(map, map_sampler, uv, layer, ceil(l));
+fn level_filtered(map: texture_2d_array<f32>, map_sampler: sampler, uv: vec2f, view: u32, layer: u32, level: f32) -> vec4f {
+    let l = clamp(level, 0.0, tile_coarsest(view, textureNumLevels(map)));
+    let fine = level_bilinear(map, map_sampler, uv, view, layer, floor(l));
+    let coarse = level_bilinear(map, map_sampler, uv, view, layer, ceil(l));
     return mix(fine, coarse, fract(l));
 }

@@ -1,4 +1,4 @@
-//! needs words
+//! needs tile words
 
 /// What receivers read.
 alias LookupMap = texture_2d_array<u32>;
@@ -15,17 +15,17 @@ const lookup_kernel: f32 = 3.0;
 const lookup_longest: f32 = 255.0;
 
 /// Sum over all texels left of x and above y.
-fn lookup_corner(map: LookupMap, x: i32, y: i32, layer: u32) -> vec4u {
-    let sum = textureLoad(map, max(vec2i(x, y) - 1, vec2i(0)), layer, 0);
+fn lookup_corner(map: LookupMap, x: i32, y: i32, view: u32, layer: u32) -> vec4u {
+    let sum = textureLoad(map, tile_texel(view, vec2i(x, y) - 1), layer, 0);
     return select(vec4u(0u), sum, x > 0 && y > 0);
 }
 
 /// Sums over the texels above y, from each of four columns to the next.
-fn lookup_row(map: LookupMap, x: vec4i, y: i32, layer: u32) -> array<vec4u, 3> {
-    let a = lookup_corner(map, x.x, y, layer);
-    let b = lookup_corner(map, x.y, y, layer);
-    let c = lookup_corner(map, x.z, y, layer);
-    let d = lookup_corner(map, x.w, y, layer);
+fn lookup_row(map: LookupMap, x: vec4i, y: i32, view: u32, layer: u32) -> array<vec4u, 3> {
+    let a = lookup_corner(map, x.x, y, view, layer);
+    let b = lookup_corner(map, x.y, y, view, layer);
+    let c = lookup_corner(map, x.z, y, view, layer);
+    let d = lookup_corner(map, x.w, y, view, layer);
     return array(words_subtract(b, a), words_subtract(c, b), words_subtract(d, c));
 }
 
@@ -45,7 +45,7 @@ fn lookup_cover(low: f32, high: f32) -> vec3f {
 }
 
 /// The level at which a texel covers the longer side of the pixel's footprint, and so all that is read.
-fn lookup_level(size: vec2f, layer: u32, ddx: vec2f, ddy: vec2f) -> f32 {
+fn lookup_level(size: vec2f, view: u32, ddx: vec2f, ddy: vec2f) -> f32 {
     let x = ddx * size;
     let y = ddy * size;
     return 0.5 * log2(max(max(dot(x, x), dot(y, y)), 1.0));
@@ -54,8 +54,8 @@ fn lookup_level(size: vec2f, layer: u32, ddx: vec2f, ddy: vec2f) -> f32 {
 /// Mean over a box around uv, exact for the map as a function that is constant on each texel: as wide
 /// as the kernel or, where that is more, as the pixel's footprint; at most `lookup_longest` texels,
 /// clipped to the map. Sixteen loads, whatever the size.
-fn lookup_filtered(map: LookupMap, map_sampler: sampler, uv: vec2f, layer: u32, ddx: vec2f, ddy: vec2f) -> vec4f {
-    let size = vec2f(textureDimensions(map));
+fn lookup_filtered(map: LookupMap, map_sampler: sampler, uv: vec2f, view: u32, layer: u32, ddx: vec2f, ddy: vec2f) -> vec4f {
+    let size = tile_size(view);
     let side = clamp((abs(ddx) + abs(ddy)) * size, vec2f(lookup_kernel), vec2f(lookup_longest));
     let low = clamp(uv * size - 0.5 * side, vec2f(0.0), size - 0.5);
     let high = clamp(uv * size + 0.5 * side, low + 0.5, size);
@@ -68,14 +68,14 @@ fn lookup_filtered(map: LookupMap, map_sampler: sampler, uv: vec2f, layer: u32, 
     let cover_y = lookup_cover(low.y, high.y);
     let first = layer * lookup_parts;
     let second = first + lookup_parts - 1u;
-    var above_a = lookup_row(map, columns, rows.x, first);
-    var above_b = lookup_row(map, columns, rows.x, second);
+    var above_a = lookup_row(map, columns, rows.x, view, first);
+    var above_b = lookup_row(map, columns, rows.x, view, second);
     var sum = vec4f(0.0);
     for (var j = 0u; j < 3u; j += 1u) {
-        let below_a = lookup_row(map, columns, rows[j + 1u], first);
+        let below_a = lookup_row(map, columns, rows[j + 1u], view, first);
         var below_b = below_a;
         if lookup_parts == 2u {
-            below_b = lookup_row(map, columns, rows[j + 1u], second);
+            below_b = lookup_row(map, columns, rows[j + 1u], view, second);
         }
         for (var i = 0u; i < 3u; i += 1u) {
             let a = words_subtract(below_a[i], above_a[i]);

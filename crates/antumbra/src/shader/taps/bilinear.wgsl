@@ -1,9 +1,9 @@
-//! needs reference taps_weights
+//! needs reference taps_weights tile
 
 /// n×n bilinear lookups one texel apart, weighted. Each compares its 2×2 texels with one depth, that
 /// of the receiver's plane over the highest of them.
 fn taps_lit(casters: texture_depth_2d_array, compare: sampler_comparison, uv: vec2f, view: u32, depth: f32, plane: vec2f) -> f32 {
-    let texel = 1.0 / vec2f(textureDimensions(casters));
+    let texel = 1.0 / tile_size(view);
     let first = uv / texel - 0.5 * f32(taps_width - 1u);
     // Where the four texels of the first tap meet, and the gain to the highest of them.
     let corner = (floor(first - 0.5) + 1.0) * texel;
@@ -13,7 +13,7 @@ fn taps_lit(casters: texture_depth_2d_array, compare: sampler_comparison, uv: ve
         for (var column = 0u; column < taps_width; column += 1u) { // unrolled
             let step = vec2f(f32(column), f32(row)) * texel;
             let reference = reference_depth(depth, gain + dot(plane, step));
-            let tap = textureSampleCompareLevel(casters, compare, first * texel + step, view, reference);
+            let tap = textureSampleCompareLevel(casters, compare, tile_uv(view, first * texel + step), tile_layer(view), reference);
             lit += taps_weight(f32(row)) * taps_weight(f32(column)) * tap;
         }
     }

@@ -1,9 +1,9 @@
-//! needs reference taps_weights
+//! needs reference taps_weights tile
 
 /// The sum of n×n bilinear taps from ⌈(n+1)/2⌉² gathers of four comparisons each, weighted here: the
 /// weights are floats, where samplers of GPUs round them to 8 bits.
 fn taps_lit(casters: texture_depth_2d_array, compare: sampler_comparison, uv: vec2f, view: u32, depth: f32, plane: vec2f) -> f32 {
-    let texel = 1.0 / vec2f(textureDimensions(casters));
+    let texel = 1.0 / tile_size(view);
     let first = uv / texel - 0.5 * f32(taps_width);
     let low = floor(first);
     let fraction = first - low;
@@ -17,7 +17,7 @@ fn taps_lit(casters: texture_depth_2d_array, compare: sampler_comparison, uv: ve
             let x = taps_pair(2.0 * f32(i), fraction.x);
             let step = 2.0 * vec2f(f32(i), f32(j)) * texel;
             let reference = reference_depth(depth, gain + dot(plane, step));
-            let four = textureGatherCompare(casters, compare, corner + step, view, reference);
+            let four = textureGatherCompare(casters, compare, tile_corner(view, corner + step), tile_layer(view), reference);
             lit += y.y * dot(x, four.xy) + y.x * dot(x, four.wz);
         }
     }

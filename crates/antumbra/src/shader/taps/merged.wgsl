@@ -1,10 +1,10 @@
-//! needs reference taps_weights
+//! needs reference taps_weights tile
 
 /// The sum of n×n bilinear taps in ⌈(n+1)/2⌉² bilinear lookups. The taps cover n + 1 texels along each
 /// axis; a lookup between two of them, at the fraction b/(a + b) and with the weight a + b, gives the
 /// first the weight a and the second b. Weights of both axes multiply, in a lookup as in the kernel.
 fn taps_lit(casters: texture_depth_2d_array, compare: sampler_comparison, uv: vec2f, view: u32, depth: f32, plane: vec2f) -> f32 {
-    let texel = 1.0 / vec2f(textureDimensions(casters));
+    let texel = 1.0 / tile_size(view);
     let first = uv / texel - 0.5 * f32(taps_width);
     let low = floor(first);
     let fraction = first - low;
@@ -20,7 +20,7 @@ fn taps_lit(casters: texture_depth_2d_array, compare: sampler_comparison, uv: ve
             let across = x.x + x.y;
             let place_x = (low.x + 0.5 + 2.0 * f32(i) + x.y / max(across, 1e-30)) * texel.x;
             let reference = reference_depth(depth, gain + dot(plane, 2.0 * vec2f(f32(i), f32(j)) * texel));
-            lit += across * down * textureSampleCompareLevel(casters, compare, vec2f(place_x, place_y), view, reference);
+            lit += across * down * textureSampleCompareLevel(casters, compare, tile_uv(view, vec2f(place_x, place_y)), tile_layer(view), reference);
         }
     }
     return lit;

@@ -7,7 +7,7 @@ fn esm_failed(ratio: f32) -> bool {
 
 /// One filtered lookup, clamped to [0,1]; custom filtering where it failed.
 fn esm_visibility(map: LookupMap, map_sampler: sampler, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f) -> f32 {
-    let ratio = esm_ratio(depth, lookup_filtered(map, map_sampler, uv, view, ddx, ddy).x);
+    let ratio = esm_ratio(depth, lookup_filtered(map, map_sampler, uv, view, tile_layer(view), ddx, ddy).x);
     if esm_failed(ratio) {
         return esm_custom(map, uv, view, depth);
     }
@@ -16,6 +16,6 @@ fn esm_visibility(map: LookupMap, map_sampler: sampler, uv: vec2f, view: u32, de
 
 /// 1 where the assumption behind the method is violated.
 fn esm_class(map: LookupMap, map_sampler: sampler, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f) -> u32 {
-    let ratio = esm_ratio(depth, lookup_filtered(map, map_sampler, uv, view, ddx, ddy).x);
+    let ratio = esm_ratio(depth, lookup_filtered(map, map_sampler, uv, view, tile_layer(view), ddx, ddy).x);
     return select(0u, 1u, esm_failed(ratio));
 }

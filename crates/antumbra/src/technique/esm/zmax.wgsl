@@ -2,18 +2,18 @@
 /// Level of the map of farthest depths whose texels are at least as wide as those of a lookup: none of its
 /// casters lies outside the four texels around uv.
 fn esm_level(farthest: texture_2d_array<f32>, view: u32, ddx: vec2f, ddy: vec2f) -> f32 {
-    let wanted = ceil(lookup_level(vec2f(textureDimensions(farthest)), view, ddx, ddy));
-    return min(wanted, f32(textureNumLevels(farthest) - 1u));
+    let wanted = ceil(lookup_level(tile_size(view), view, ddx, ddy));
+    return min(wanted, tile_coarsest(view, textureNumLevels(farthest)));
 }
 
 /// Greatest depth of the four texels around uv of a level.
 fn esm_deepest(farthest: texture_2d_array<f32>, map_sampler: sampler, uv: vec2f, view: u32, level: f32) -> f32 {
-    let size = max(floor(vec2f(textureDimensions(farthest)) * exp2(-level)), vec2f(1.0));
+    let size = tile_level_size(view, level);
     let corner = floor(uv * size - 0.5) + 0.5;
     var deepest = 0.0;
     for (var i = 0u; i < 4u; i += 1u) {
         let texel = clamp(corner + vec2f(f32(i & 1u), f32(i >> 1u)), vec2f(0.5), size - 0.5);
-        deepest = max(deepest, textureSampleLevel(farthest, map_sampler, texel / size, view, level).x);
+        deepest = max(deepest, textureSampleLevel(farthest, map_sampler, tile_place(view, texel, level), tile_layer(view), level).x);
     }
     return deepest;
 }
@@ -23,7 +23,7 @@ fn esm_deepest(farthest: texture_2d_array<f32>, map_sampler: sampler, uv: vec2f,
 /// kernel of finest texels and two of the level [section 3.3].
 fn esm_failed(farthest: texture_2d_array<f32>, map_sampler: sampler, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f) -> bool {
     let level = esm_level(farthest, view, ddx, ddy);
-    let slope = dot(abs(plane), 1.0 / vec2f(textureDimensions(farthest)));
+    let slope = dot(abs(plane), 1.0 / tile_size(view));
     let reach = 0.5 * (esm_kernel(view) - 1.0) + 2.0 * exp2(level);
     let allowed = log(1.0 + esm_epsilon()) / esm_c() + esm_offset() * slope * reach;
     return depth + allowed < esm_deepest(farthest, map_sampler, uv, view, level);
@@ -34,7 +34,7 @@ fn esm_visibility(map: LookupMap, map_sampler: sampler, farthest: texture_2d_arr
     if esm_failed(farthest, map_sampler, uv, view, depth, plane, ddx, ddy) {
         return esm_custom(map, uv, view, depth);
     }
-    return min(esm_ratio(depth, lookup_filtered(map, map_sampler, uv, view, ddx, ddy).x), 1.0);
+    return min(esm_ratio(depth, lookup_filtered(map, map_sampler, uv, view, tile_layer(view), ddx, ddy).x), 1.0);
 }
 
 /// 1 where the assumption behind the method may be violated.

@@ -2,7 +2,7 @@
 /// The bound of the interval that contains the receiver; at its start, over the width of the overlap,
 /// mixed with that of the interval before: at most two lookups.
 fn lvsm_visibility(map: LookupMap, map_sampler: sampler, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f) -> f32 {
-    let least = lvsm_least_variance() + lvsm_slope() * chebyshev_slope(plane, vec2f(textureDimensions(map)));
+    let least = lvsm_least_variance() + lvsm_slope() * chebyshev_slope(plane, tile_size(view));
     let across = depth * f32(lvsm_intervals);
     let i = min(u32(across), lvsm_intervals - 1u);
     var bound = lvsm_pick(map, map_sampler, uv, view, depth, i, ddx, ddy, least);
