@@ -4,6 +4,7 @@
 //!
 //! The scores are measured on those images; times and memory are made up, and the page says so.
 
+use antumbra_lab::files;
 use antumbra_lab::image::{GrayImage, Rgba8Image, crop, error_heat_map};
 use antumbra_lab::metrics::{Score, no_shadow_baseline, score};
 use antumbra_lab::report;
@@ -226,7 +227,7 @@ fn picture(visibility: &GrayImage) -> Result<Rgba8Image, Box<dyn Error>> {
 
 fn technique(s: &Sample, truth: &Truth, images: &mut Images) -> Result<TechniqueResult, Box<dyn Error>> {
     let visibility = plane(s.visibility);
-    let stem = report::file_stem(s.spec);
+    let stem = files::stem(s.spec);
     let mut add = |what: &str, png: Vec<u8>| {
         let name = format!("{stem}-{what}.png");
         images.insert(name.clone(), png);

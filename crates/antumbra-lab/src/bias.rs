@@ -132,7 +132,7 @@ pub fn study(gpu: &Gpu, request: &Request<'_>, progress: &dyn Progress) -> Resul
     let mut rows = Vec::with_capacity(session.prepared().len());
     for prepared in session.prepared() {
         let (technique, bias) = &entries[prepared.entry];
-        let answer = session.draw(prepared)?;
+        let answer = session.draw_and_ask(prepared)?;
         let ideal = truths.ideals.get(&kernel(technique.as_ref())).context("an ideal for every kernel")?;
         let spec = technique::spec(technique.as_ref());
         let row =

@@ -3,13 +3,12 @@
 use crate::{
     cascades,
     classes::ClassShare,
-    facts,
+    facts, files,
     gpu::Gpu,
     image::error_heat_map,
     metrics::Score,
     prepared::Prepared,
     progress::Progress,
-    report::file_stem,
     results::{Results, SCHEMA, Scores, TechniqueImages, TechniqueResult, TimeResult},
     session::Session,
     shot::Shot,
@@ -117,7 +116,7 @@ fn render(
     images: &mut BTreeMap<String, Vec<u8>>,
 ) -> Result<Rendered> {
     let technique = prepared.shadows.technique();
-    let answer = session.draw(prepared)?;
+    let answer = session.draw_and_ask(prepared)?;
     let picture = session.picture()?;
     let spec = technique::spec(technique);
     let score = |truth: &TruthImage, among: Option<&[bool]>| -> Result<Score> {
@@ -132,7 +131,7 @@ fn render(
     for region in truths.regions.iter().filter(|r| r.pixels.contains(&true)) {
         regions.insert(region.name.to_string(), score(&truths.light_space, Some(&region.pixels))?);
     }
-    let stem = file_stem(&spec);
+    let stem = files::stem(&spec);
     let mut save = |kind: &str, bytes: Vec<u8>| {
         let file = format!("{stem}-{kind}");
         images.insert(file.clone(), bytes);

@@ -1,7 +1,10 @@
 //! The shadow test as a technique approximates it: visibility against how far a receiver lies behind
 //! its caster [Annen et al. 2007, figure 3; Annen et al. 2008, figure 2].
 
-use crate::{gpu::Gpu, shaders};
+use crate::{
+    gpu::{Gpu, Wait},
+    shaders,
+};
 use antumbra::{
     Capabilities, CasterMesh, DEPTH_FORMAT, Options, ShadowMap, Size, Technique, View,
     technique::{self, Bias, CasterStorage},

@@ -56,6 +56,14 @@ fn failed(verb: &'static str, path: &Path) -> impl FnOnce(io::Error) -> FileErro
     move |source| FileError::Io { verb, path, source }
 }
 
+/// A file stem for a technique's spec: what is not a letter, a digit, '.', '-' or '_' becomes '-'.
+/// "esm.c=80,kernel=5" is "esm.c-80-kernel-5".
+#[must_use]
+pub fn stem(spec: &str) -> String {
+    let keep = |c: char| if c.is_ascii_alphanumeric() || ".-_".contains(c) { c } else { '-' };
+    spec.chars().map(keep).collect()
+}
+
 /// The bytes of a file.
 ///
 /// # Errors

@@ -1,81 +1,84 @@
 //! The graphics device of the lab: the renderer's, with waiting and reading back.
 
 use anyhow::{Context, Result};
-use std::{ops::Deref, sync::mpsc};
+use std::sync::mpsc;
 
-/// The renderer's device, for those who wait for what it draws.
-#[derive(Debug)]
-pub struct Gpu(antumbra_render::Gpu);
+pub use antumbra_render::Gpu;
 
-impl Deref for Gpu {
-    type Target = antumbra_render::Gpu;
-
-    fn deref(&self) -> &Self::Target {
-        &self.0
-    }
+/// Opens the adapter that wgpu prefers. Waits.
+///
+/// # Errors
+/// As [`Gpu::open`].
+pub fn open() -> Result<Gpu> {
+    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
+        backends: wgpu::Backends::PRIMARY,
+        ..wgpu::InstanceDescriptor::new_without_display_handle()
+    });
+    Ok(pollster::block_on(Gpu::open(&instance))?)
 }
 
-impl Gpu {
-    /// The adapter that wgpu prefers.
-    ///
-    /// # Errors
-    /// As [`antumbra_render::Gpu::open`].
-    pub fn new() -> Result<Self> {
-        let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
-            backends: wgpu::Backends::PRIMARY,
-            ..wgpu::InstanceDescriptor::new_without_display_handle()
-        });
-        Ok(Self(pollster::block_on(antumbra_render::Gpu::open(&instance))?))
-    }
-
-    /// A device that the caller has opened, as [`antumbra_render::Gpu::adopt`].
-    #[must_use]
-    pub fn adopt(device: wgpu::Device, queue: wgpu::Queue, info: wgpu::AdapterInfo) -> Self {
-        Self(antumbra_render::Gpu::adopt(device, queue, info))
-    }
-
+/// What the renderer's device does for those who wait for what it draws.
+pub trait Wait {
     /// Encodes, submits and waits until the device is done.
     ///
     /// # Errors
     /// As [`finish`](Self::finish); what `encode` returns.
-    pub fn run<T>(&self, encode: impl FnOnce(&mut wgpu::CommandEncoder) -> Result<T>) -> Result<T> {
+    fn run<T>(&self, encode: impl FnOnce(&mut wgpu::CommandEncoder) -> Result<T>) -> Result<T>;
+
+    /// Submits and waits until the device is done.
+    ///
+    /// # Errors
+    /// As [`Gpu::check`], or if the device is lost.
+    fn finish(&self, encoder: wgpu::CommandEncoder) -> Result<()>;
+
+    /// All bytes of a texture's first level, rows without padding. Waits.
+    ///
+    /// # Errors
+    /// As [`finish`](Self::finish).
+    fn read(&self, texture: &wgpu::Texture) -> Result<Vec<u8>>;
+
+    /// All texels of a texture's first level as plain data. Waits.
+    ///
+    /// # Errors
+    /// As [`finish`](Self::finish).
+    fn read_texels<T: bytemuck::Pod>(&self, texture: &wgpu::Texture) -> Result<Vec<T>>;
+
+    /// All bytes of one layer and mip level of a texture, rows without padding. Waits.
+    ///
+    /// # Errors
+    /// As [`finish`](Self::finish).
+    fn read_layer(&self, texture: &wgpu::Texture, layer: u32, mip_level: u32) -> Result<Vec<u8>>;
+
+    /// Bytes of a buffer with `MAP_READ`. Waits.
+    ///
+    /// # Errors
+    /// If the device is lost.
+    fn map(&self, staging: &wgpu::Buffer) -> Result<Vec<u8>>;
+}
+
+impl Wait for Gpu {
+    fn run<T>(&self, encode: impl FnOnce(&mut wgpu::CommandEncoder) -> Result<T>) -> Result<T> {
         let mut encoder = self.device.create_command_encoder(&Default::default());
         let result = encode(&mut encoder)?;
         self.finish(encoder)?;
         Ok(result)
     }
 
-    /// Submits and waits until the device is done.
-    ///
-    /// # Errors
-    /// As [`antumbra_render::Gpu::check`], or if the device is lost.
-    pub fn finish(&self, encoder: wgpu::CommandEncoder) -> Result<()> {
+    fn finish(&self, encoder: wgpu::CommandEncoder) -> Result<()> {
         self.submit(encoder)?;
         self.device.poll(wgpu::PollType::wait_indefinitely()).context("the device was lost")?;
         Ok(self.check()?)
     }
 
-    /// All bytes of a texture's first level, rows without padding. Waits.
-    ///
-    /// # Errors
-    /// As [`finish`](Self::finish).
-    pub fn read(&self, texture: &wgpu::Texture) -> Result<Vec<u8>> {
+    fn read(&self, texture: &wgpu::Texture) -> Result<Vec<u8>> {
         self.read_layer(texture, 0, 0)
     }
 
-    /// All texels of a texture's first level as plain data. Waits.
-    ///
-    /// # Errors
-    /// As [`finish`](Self::finish).
-    pub fn read_texels<T: bytemuck::Pod>(&self, texture: &wgpu::Texture) -> Result<Vec<T>> {
+    fn read_texels<T: bytemuck::Pod>(&self, texture: &wgpu::Texture) -> Result<Vec<T>> {
         Ok(bytemuck::pod_collect_to_vec(&self.read(texture)?))
     }
 
-    /// All bytes of one layer and mip level of a texture, rows without padding. Waits.
-    ///
-    /// # Errors
-    /// As [`finish`](Self::finish).
-    pub fn read_layer(&self, texture: &wgpu::Texture, layer: u32, mip_level: u32) -> Result<Vec<u8>> {
+    fn read_layer(&self, texture: &wgpu::Texture, layer: u32, mip_level: u32) -> Result<Vec<u8>> {
         let [width, height] = [texture.width(), texture.height()].map(|n| (n >> mip_level).max(1));
         let row = width * texture.format().block_copy_size(None).context("format cannot be copied")?;
         let padded = row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
@@ -108,11 +111,7 @@ impl Gpu {
         Ok(bytes.chunks(padded as usize).flat_map(|line| &line[..row as usize]).copied().collect())
     }
 
-    /// Bytes of a buffer with `MAP_READ`. Waits.
-    ///
-    /// # Errors
-    /// If the device is lost.
-    pub fn map(&self, staging: &wgpu::Buffer) -> Result<Vec<u8>> {
+    fn map(&self, staging: &wgpu::Buffer) -> Result<Vec<u8>> {
         let (send, receive) = mpsc::channel();
         let slice = staging.slice(..);
         slice.map_async(wgpu::MapMode::Read, move |result| {

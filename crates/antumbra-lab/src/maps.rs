@@ -2,7 +2,7 @@
 //! [Annen et al. 2007, figure 5].
 
 use crate::{
-    gpu::Gpu,
+    gpu::{Gpu, Wait},
     image::{GrayImage, Rgba8Image, diverging},
     paint::{self, Anchor, Colour, INK, Letters},
     session::Session,
@@ -90,7 +90,7 @@ pub fn pictures(
     take: &mut dyn FnMut(Picture) -> Result<()>,
 ) -> Result<()> {
     let first = session.prepared().first().context("no technique was named")?;
-    session.draw(first)?;
+    session.draw_and_ask(first)?;
     let (views, size) = (session.views(), session.shot().map_size);
     for (number, view) in views.iter().enumerate() {
         let name = cascade_prefix(views, number) + "depth";

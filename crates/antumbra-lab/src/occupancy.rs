@@ -1,6 +1,6 @@
 //! Whether a shadow map that keeps triangles by id had memory for all of them.
 
-use crate::gpu::Gpu;
+use crate::gpu::{Gpu, Wait};
 use antumbra::{Capacity, ShadowMap};
 use anyhow::Result;
 

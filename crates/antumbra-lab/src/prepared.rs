@@ -1,6 +1,10 @@
 //! A technique made ready to be drawn on one scene.
 
-use crate::{gpu::Gpu, occupancy::Occupancy, timing::TimedFrame};
+use crate::{
+    gpu::{Gpu, Wait},
+    occupancy::Occupancy,
+    timing::TimedFrame,
+};
 use antumbra::{Capacity, Options, ShadowMap, Technique, View};
 use antumbra_render::{Casters, GpuScene, Lighting, Lookup};
 use anyhow::Result;

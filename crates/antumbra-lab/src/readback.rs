@@ -1,7 +1,7 @@
 //! What the renderer drew, as images. Everything here waits.
 
 use crate::{
-    gpu::Gpu,
+    gpu::{Gpu, Wait},
     image::{GrayImage, Rgba8Image},
 };
 use antumbra_render::{GpuScene, Lighting, Pictures, Surfaces};

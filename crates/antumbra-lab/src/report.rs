@@ -48,17 +48,9 @@ pub enum ReportError {
     MissingImage(String),
     /// A name that is not safe as a file name everywhere.
     #[error(
-        "{0:?} cannot name a file of the report: use letters, digits, '.', '-' and '_' (see `file_stem`), and no name of the report's own files"
+        "{0:?} cannot name a file of the report: use letters, digits, '.', '-' and '_' (see `files::stem`), and no name of the report's own files"
     )]
     Name(String),
-}
-
-/// A file stem for a technique's spec: what is not a letter, a digit, '.', '-' or '_' becomes '-'.
-/// "esm.c=80,kernel=5" is "esm.c-80-kernel-5".
-#[must_use]
-pub fn file_stem(spec: &str) -> String {
-    let keep = |c: char| if c.is_ascii_alphanumeric() || ".-_".contains(c) { c } else { '-' };
-    spec.chars().map(keep).collect()
 }
 
 /// Writes the folder `out_dir`, whole or not at all, and returns its path. An earlier report there
@@ -94,7 +86,7 @@ pub fn write(
 }
 
 fn is_safe(name: &str) -> bool {
-    let plain = !name.is_empty() && !name.starts_with('.') && name == file_stem(name);
+    let plain = !name.is_empty() && !name.starts_with('.') && name == files::stem(name);
     plain && !OWN_FILES.iter().any(|own| own.eq_ignore_ascii_case(name))
 }
 

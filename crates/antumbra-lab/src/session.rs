@@ -2,7 +2,7 @@
 
 use crate::{
     classes::Classes,
-    gpu::Gpu,
+    gpu::{Gpu, Wait},
     image::{GrayImage, Rgba8Image},
     prepared::Prepared,
     progress::Progress,
@@ -226,7 +226,7 @@ impl<'g> Session<'g> {
     ///
     /// # Errors
     /// If the device is lost.
-    pub fn draw(&self, prepared: &Prepared) -> Result<GrayImage> {
+    pub fn draw_and_ask(&self, prepared: &Prepared) -> Result<GrayImage> {
         self.gpu.run(|encoder| prepared.encode(encoder, &self.scene, &self.lighting))?;
         readback::visibility(self.gpu, &self.lighting)
     }

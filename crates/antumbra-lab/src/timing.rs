@@ -6,7 +6,7 @@
 //! Techniques take turns, round after round, so that a disturbance of the machine hits all of them.
 
 use crate::{
-    gpu::Gpu,
+    gpu::{Gpu, Wait},
     results::{PassTime, Spread, TimeMethod, TimeResult},
 };
 use antumbra::{Probe, ShadowMap};

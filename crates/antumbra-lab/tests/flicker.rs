@@ -5,7 +5,7 @@
 use antumbra::{Technique, technique, technique::Bias};
 use antumbra_lab::{
     flicker::{self, Promise, Request, Results, TechniqueFlicker},
-    gpu::Gpu,
+    gpu::{Gpu, Wait},
     motion::{Frame, Path},
     progress::NoProgress,
     readback,

@@ -8,7 +8,11 @@ use antumbra::{
     Capabilities, Hard, Parameter, ShadowMap, Size, Stratified, Technique, Unsupported, technique,
     technique::{About, Bias, BiasTerms, Binding, Description, Family},
 };
-use antumbra_lab::{gpu::Gpu, image::GrayImage, specs};
+use antumbra_lab::{
+    gpu::{Gpu, Wait},
+    image::GrayImage,
+    specs,
+};
 use antumbra_scene::{
     AlphaMode, Camera, Image, Instance, Light, Material, Mesh, Projection, Scene, procedural,
 };
@@ -199,7 +203,7 @@ impl Technique for Gradients {
         }";
         let mut described = Description::new(self.about(), wgsl);
         described.bindings = vec![Binding::Depth];
-        described.settings = ["a", "b", "c", "d"].into_iter().zip(self.0).collect();
+        described.uniforms = ["a", "b", "c", "d"].into_iter().zip(self.0).collect();
         Ok(described)
     }
     fn clone_box(&self) -> Box<dyn Technique> {

@@ -6,7 +6,12 @@ use crate::{
     study::ShotKey,
 };
 use antumbra::{Technique, technique};
-use antumbra_lab::{curve, facts, gpu::Gpu, progress::Progress, results::AdapterFacts};
+use antumbra_lab::{
+    curve, facts,
+    gpu::{self, Gpu},
+    progress::Progress,
+    results::AdapterFacts,
+};
 use anyhow::{Context, Result};
 use scenes::Scenes;
 use std::path::Path;
@@ -53,7 +58,7 @@ impl<'a> Workbench<'a> {
     /// # Errors
     /// No adapter; an executable that cannot be read.
     pub fn new(cache: &Path, quick: bool, progress: &'a dyn Progress) -> Result<Self> {
-        let gpu = Gpu::new()?;
+        let gpu = gpu::open()?;
         let program = std::env::current_exe().context("the path of this program")?;
         let program = std::fs::read(&program).with_context(|| program.display().to_string())?;
         let build = format!("{:032x}", fingerprint(&program));

@@ -46,15 +46,15 @@ impl Broken {
         })
     }
 
-    /// With another value of a setting.
+    /// With another value of a uniform.
     ///
     /// # Panics
-    /// When it is described, if it has no such setting.
+    /// When it is described, if it has no such uniform.
     #[must_use]
-    pub fn setting(self, name: &'static str, wrong: f32) -> Self {
+    pub fn uniform(self, name: &'static str, wrong: f32) -> Self {
         self.with(move |described| {
-            let setting = described.settings.iter_mut().find(|(n, _)| *n == name);
-            let Some((_, value)) = setting else { panic!("no setting {name}") };
+            let uniform = described.uniforms.iter_mut().find(|(n, _)| *n == name);
+            let Some((_, value)) = uniform else { panic!("no uniform {name}") };
             *value = wrong;
         })
     }

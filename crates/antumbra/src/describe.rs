@@ -1,7 +1,7 @@
 //! What a shadow technique is: a trait of five methods, and the data that one of them returns.
 //!
 //! A [`Technique`] holds no GPU object. [`Technique::describe`] says once, for a device, which texels it keeps
-//! ([`Map`]), how they are filtered ([`Pass`]), what its WGSL reads ([`Binding`], [`Setting`], [`Constant`])
+//! ([`Map`]), how they are filtered ([`Pass`]), what its WGSL reads ([`Binding`], [`Uniform`], [`Constant`])
 //! and whatever else a [`ShadowMap`](crate::ShadowMap) has to know, as one [`Description`].
 
 use crate::{capabilities::Capabilities, error::Unsupported, parameter::Parameter};
@@ -15,7 +15,7 @@ pub(crate) mod wgsl;
 pub use description::Description;
 pub use map::{Access, Combine, Encode, Map, Pass};
 pub use storage::{CasterStorage, Coverage};
-pub use wgsl::{Binding, Class, Constant, DepthSpace, Setting};
+pub use wgsl::{Binding, Class, Constant, DepthSpace, Uniform};
 
 /// How a technique gets from depth to visibility.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -92,7 +92,7 @@ pub struct About {
 ///             }";
 ///         let nearest = wgpu::FilterMode::Nearest;
 ///         let mut described = Description::comparison(self.about(), wgsl, nearest, Precision::Float32);
-///         described.settings = vec![("darkness", self.darkness)];
+///         described.uniforms = vec![("darkness", self.darkness)];
 ///         Ok(described)
 ///     }
 ///     fn clone_box(&self) -> Box<dyn Technique> {
@@ -118,7 +118,7 @@ pub struct About {
 /// - `ddx`, `ddy`, the change of `uv` from this pixel to the next.
 ///
 /// Functions that composition writes beside it, and that every function may call, read what is set at run
-/// time: `x_NAME() -> f32` for each of [`Description::settings`], `x_NAME(view: u32) -> f32` for each of
+/// time: `x_NAME() -> f32` for each of [`Description::uniforms`], `x_NAME(view: u32) -> f32` for each of
 /// [`Description::widths`], and what comes with [`Description::blur`] and with what is kept of
 /// casters ([`CasterStorage`]). If there are [classes](Description::classes) it also defines `x_class`, with
 /// the same parameters. The first line may be `//! needs a b`: shared files, and slots that

@@ -226,7 +226,7 @@ impl Filter {
         [Some(lookup), below, blur].into_iter().flatten().collect()
     }
 
-    /// Compile-time settings of those files.
+    /// Numbers that are compiled into those files.
     pub(crate) fn constants(&self, values: &Values) -> Vec<Constant> {
         if let Some(table) = self.table(values) {
             let [low, range] = table.scale();

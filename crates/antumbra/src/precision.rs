@@ -53,7 +53,7 @@ impl Precision {
         if self.steps().is_none() { "reference_exact" } else { "reference_stepped" }
     }
 
-    /// Compile-time settings of that file.
+    /// Numbers that are compiled into that file.
     pub(crate) fn constants(self) -> Vec<Constant> {
         self.steps().map(|n| Constant::Count("reference_steps", n)).into_iter().collect()
     }

@@ -9,7 +9,7 @@ pub use crate::{
     bias::{Bias, BiasTerms},
     describe::{
         About, Access, Binding, CasterStorage, Class, Combine, Constant, Coverage, DepthSpace, Description,
-        Encode, Family, Map, Pass, Setting, Technique,
+        Encode, Family, Map, Pass, Technique, Uniform,
     },
     kernel::{Adaptive, Width},
 };

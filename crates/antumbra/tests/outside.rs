@@ -47,7 +47,7 @@ impl Technique for Own {
         let encode = Encode::Texel("own_encode");
         let values = Values::new("exponentials", wgpu::TextureFormat::R32Float, encode);
         let mut described = Description::filtered(self.about(), WGSL, &self.filter, values, device);
-        described.settings = vec![("c", self.c)];
+        described.uniforms = vec![("c", self.c)];
         (self.edit)(&mut described);
         Ok(described)
     }

@@ -4,7 +4,7 @@ use super::table;
 use crate::{arguments::Bench, progress::Bar, scene, techniques};
 use antumbra_lab::{
     bench::{self, TechniqueTime},
-    gpu::Gpu,
+    gpu,
     results::TimeResult,
     timing,
 };
@@ -18,7 +18,7 @@ pub(crate) fn run(arguments: &Bench) -> Result<()> {
     scene::check(&arguments.scene)?;
     let techniques = techniques::read(&arguments.techniques, arguments.scene.view.kernel)?;
     let shot = scene::load(&arguments.scene)?;
-    let gpu = Gpu::new()?;
+    let gpu = gpu::open()?;
     let results = {
         let bar = Bar::new([("upload", 1.0), ("time", f64::from(arguments.rounds)), ("truth", 2.0)]);
         bench::measure(&gpu, &shot, &techniques, arguments.rounds, super::command_given(), &bar)?

@@ -4,7 +4,7 @@ use super::table;
 use crate::{arguments::Bias, progress::Bar, scene, techniques};
 use antumbra_lab::{
     bias::{self, Request},
-    gpu::Gpu,
+    gpu,
 };
 use anyhow::Result;
 use serde_json::json;
@@ -14,7 +14,7 @@ pub(crate) fn run(arguments: &Bias) -> Result<()> {
     scene::check_view(&arguments.view)?;
     let techniques = techniques::read(&arguments.techniques, arguments.view.kernel)?;
     let settings: Vec<_> = arguments.settings.iter().map(|text| text.parse()).collect::<Result<_, _>>()?;
-    let gpu = Gpu::new()?;
+    let gpu = gpu::open()?;
     let out = &mut io::stdout();
     let mut all = serde_json::Map::new();
     for name in &arguments.scenes {

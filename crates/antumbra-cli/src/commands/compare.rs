@@ -8,8 +8,7 @@ use crate::{
 };
 use antumbra_lab::{
     compare::{self, Request},
-    files,
-    gpu::Gpu,
+    files, gpu,
     metrics::MIN_DEEP_PIXELS,
     report::{self, significant},
     results::{Results, TechniqueResult},
@@ -29,7 +28,7 @@ pub(crate) fn run(arguments: &Compare) -> Result<()> {
     files::check_folder(&arguments.output)?;
     let techniques = techniques::read(&arguments.techniques, arguments.scene.view.kernel)?;
     let shot = scene::load(&arguments.scene)?;
-    let gpu = Gpu::new()?;
+    let gpu = gpu::open()?;
     let request = Request {
         shot,
         techniques,

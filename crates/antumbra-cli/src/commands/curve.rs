@@ -4,9 +4,7 @@ use crate::arguments::Curve;
 use antumbra::{Filter, Technique, technique};
 use antumbra_lab::{
     chart::{self, Panel},
-    curve, files,
-    gpu::Gpu,
-    specs,
+    curve, files, gpu, specs,
 };
 use anyhow::{Context, Result, bail};
 use serde::Serialize;
@@ -30,7 +28,7 @@ pub(crate) fn run(arguments: &Curve) -> Result<()> {
         Ok(techniques)
     });
     let groups: Vec<Vec<Box<dyn Technique>>> = groups.collect::<Result<_>>()?;
-    let gpu = Gpu::new()?;
+    let gpu = gpu::open()?;
     let depths: Vec<f32> = behind.iter().map(|b| (arguments.caster + b).clamp(0.0, 1.0)).collect();
     let one = |technique: &dyn Technique| -> Result<chart::Curve> {
         let answers = curve::visibility(&gpu, technique, arguments.caster, &depths)?;

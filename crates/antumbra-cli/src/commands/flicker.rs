@@ -9,7 +9,7 @@ use crate::{
 use antumbra_lab::{
     files,
     flicker::{self, Measured, Promise, Request, Results},
-    gpu::Gpu,
+    gpu,
     motion::{BadFrameCount, Path},
 };
 use anyhow::{Result, bail};
@@ -33,7 +33,7 @@ pub(crate) fn run(arguments: &Flicker) -> Result<()> {
     if !(1..=shorter).contains(&arguments.stride) {
         bail!("--stride {}: allowed are 1 to {shorter}, the shorter side of the picture", arguments.stride);
     }
-    let gpu = Gpu::new()?;
+    let gpu = gpu::open()?;
     let request = Request {
         shot,
         path: path(arguments.path),

@@ -2,7 +2,7 @@
 
 use super::table;
 use antumbra::{Filter, ShadowMap, Size, technique};
-use antumbra_lab::{facts, gpu::Gpu, specs};
+use antumbra_lab::{facts, gpu, specs};
 use antumbra_scene::procedural;
 use anyhow::Result;
 use serde_json::json;
@@ -72,7 +72,7 @@ pub(crate) fn scenes(as_json: bool) -> Result<()> {
 }
 
 pub(crate) fn adapter(as_json: bool) -> Result<()> {
-    let gpu = Gpu::new()?;
+    let gpu = gpu::open()?;
     let adapter = facts::adapter(&gpu);
     let mut choices = Vec::new();
     for technique in technique::all() {

@@ -10,7 +10,7 @@ use crate::{
 };
 use antumbra_lab::{
     compare::{self, Request},
-    gpu::Gpu,
+    gpu,
     results::{LeftOut, TechniqueResult},
     shot::Shot,
     timing,
@@ -106,7 +106,7 @@ pub(crate) fn run(arguments: &Kernels) -> Result<()> {
     }
     scene::check(&arguments.scene)?;
     let shot = scene::load(&arguments.scene)?;
-    let gpu = Gpu::new()?;
+    let gpu = gpu::open()?;
     let widest = arguments.kernels.iter().copied().max().unwrap_or(1);
     let work = (arguments.techniques.len(), arguments.rounds);
     let bar = Bar::new(progress::comparison(&gpu, shot.resolution, (widest, arguments.grid), work));

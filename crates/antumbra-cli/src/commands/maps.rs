@@ -4,8 +4,7 @@ use super::table;
 use crate::{arguments::Maps, scene, techniques};
 use antumbra::technique;
 use antumbra_lab::{
-    files,
-    gpu::Gpu,
+    files, gpu,
     maps::{self, Picture, Sheet},
     session::Session,
 };
@@ -27,7 +26,7 @@ pub(crate) fn run(arguments: &Maps) -> Result<()> {
         bail!("--technique {}: maps takes one technique", arguments.technique);
     }
     let shot = scene::load(&arguments.scene)?;
-    let gpu = Gpu::new()?;
+    let gpu = gpu::open()?;
     let session = Session::new(&gpu, &shot, &techniques)?;
     let technique = session.prepared().first().map(|prepared| technique::spec(prepared.shadows.technique()));
     let mut written = Vec::new();

@@ -9,7 +9,7 @@ use antumbra_lab::{
     cascades,
     classes::ClassShare,
     files,
-    gpu::Gpu,
+    gpu::{self, Gpu},
     image::GrayImage,
     map_views::MapViews,
     prepared::Prepared,
@@ -24,11 +24,11 @@ use std::io::{self, Write};
 pub(crate) fn run(arguments: &Render) -> Result<()> {
     let techniques = checked(arguments)?;
     let shot = scene::load(&arguments.scene)?;
-    let gpu = Gpu::new()?;
+    let gpu = gpu::open()?;
     let session = Session::new(&gpu, &shot, &techniques)?;
     let visibility = match session.prepared().first() {
         None => TracedShot::new(&shot)?.trace(Truth::Hard, &[], &NoProgress)?.image,
-        Some(prepared) => session.draw(prepared)?,
+        Some(prepared) => session.draw_and_ask(prepared)?,
     };
     for why in session.prepared().iter().filter_map(Prepared::invalid) {
         let _ = writeln!(io::stderr(), "warning: {} is invalid: {why}", arguments.technique);

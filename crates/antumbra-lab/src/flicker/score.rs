@@ -5,9 +5,9 @@ use super::{
     truths::{FrameSample, FrameTruth, Truths},
 };
 use crate::{
+    files,
     image::{Rgba8Image, diverging},
     prepared::Prepared,
-    report::file_stem,
 };
 use antumbra::technique;
 use anyhow::Result;
@@ -164,7 +164,7 @@ impl Series {
                 let name = Promise::of_hard(request.path);
                 mean(&hard.flicker, name)
             });
-            let file = format!("{}-heat.png", file_stem(&spec));
+            let file = format!("{}-heat.png", files::stem(&spec));
             images.insert(file.clone(), self.heat_map(single)?);
             files.push(file);
             techniques.push(TechniqueFlicker {

@@ -5,7 +5,7 @@
 
 use antumbra::{Capacity, Kernel, Options, ShadowMap, Size, Technique, View, Weights, technique::Bias};
 use antumbra_lab::{
-    gpu::Gpu,
+    gpu::{Gpu, Wait},
     image::GrayImage,
     map_views,
     metrics::{self, Score},

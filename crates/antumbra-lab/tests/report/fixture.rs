@@ -1,5 +1,6 @@
 //! A small report: two techniques on a picture of 12 × 12 pixels.
 
+use antumbra_lab::files;
 use antumbra_lab::image::{GrayImage, Rgba8Image};
 use antumbra_lab::metrics::{Score, score};
 use antumbra_lab::report::{self, ReportError};
@@ -73,7 +74,7 @@ pub(crate) fn technique(spec: &str, title: &str, family: Family, visibility: f32
     let truth = GrayImage::from_fn(12, 12, |x, _| f32::from(x > 5));
     let test = GrayImage::from_fn(12, 12, |x, _| if x > 5 { visibility } else { 0.0 });
     let score = score(&test, &truth, &[true; 144]).unwrap();
-    let stem = report::file_stem(spec);
+    let stem = files::stem(spec);
     let image = |what: &str| format!("{stem}-{what}.png");
     TechniqueResult {
         name: spec.split('.').next().unwrap().into(),

@@ -4,7 +4,7 @@
 mod fixture;
 
 use antumbra_lab::classes::ClassShare;
-use antumbra_lab::files::{FileError, write_atomically};
+use antumbra_lab::files::{self, FileError, write_atomically};
 use antumbra_lab::report::{self, ReportError};
 use antumbra_lab::results::{Family, LeftOut, Results, ResultsError};
 use fixture::{Folder, images, results, technique, write};
@@ -179,7 +179,7 @@ fn missing_images_and_bad_names_are_refused_before_writing() {
         assert!(matches!(error, ReportError::Name(_)), "{name}: {error}");
     }
     assert!(folder.names().is_empty());
-    assert_eq!(report::file_stem("esm.c=80,kernel=5"), "esm.c-80-kernel-5");
+    assert_eq!(files::stem("esm.c=80,kernel=5"), "esm.c-80-kernel-5");
 }
 
 #[test]

@@ -126,7 +126,7 @@ impl Workbench<'_> {
 /// Draws one technique.
 fn look(session: &Session<'_>, prepared: &Prepared, spec: &str) -> Result<Look> {
     let shadows = &prepared.shadows;
-    let visibility = session.draw(prepared)?;
+    let visibility = session.draw_and_ask(prepared)?;
     let picture = session.picture()?;
     let classes = session.classes(prepared, &visibility)?;
     let (tinted, classes) = classes.map_or((None, Vec::new()), |c| (Some(c.picture.into()), c.shares));

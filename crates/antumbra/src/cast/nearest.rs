@@ -96,8 +96,8 @@ impl Plan for NearestPlan<'_> {
         let Options { size, views, .. } = *self.options;
         let layout = objects::layout(device, LABEL, &[(ShaderStages::VERTEX_FRAGMENT, UNIFORM)]);
         let caster_views = CasterViews::new(device, (size, views), self.coverages);
-        let group = |slot: usize| {
-            let (view, coverage) = (slot / self.coverages.len(), slot % self.coverages.len());
+        let group = |index: usize| {
+            let (view, coverage) = (index / self.coverages.len(), index % self.coverages.len());
             objects::bind(device, LABEL, &layout, [caster_views.binding(view, coverage)])
         };
         let unclipped_depth = self.device.clamps_depth();

@@ -60,8 +60,8 @@ pub(super) fn uniforms<T: bytemuck::Pod>(device: &wgpu::Device, label: &str, val
         usage: BufferUsages::UNIFORM,
         mapped_at_creation: true,
     });
-    for (slot, value) in (0..).zip(values) {
-        let at = slot * stride;
+    for (index, value) in (0..).zip(values) {
+        let at = index * stride;
         if let Ok(mut bytes) = buffer.get_mapped_range_mut(at..at + size_of::<T>() as u64) {
             bytes.copy_from_slice(bytemuck::bytes_of(value));
         }
@@ -77,7 +77,7 @@ pub(super) fn stride<T>(device: &wgpu::Device) -> u64 {
 }
 
 /// Part of a buffer that holds one uniform.
-pub(super) fn slot<T>(buffer: &Buffer, index: u64, stride: u64) -> BindingResource<'_> {
+pub(super) fn element<T>(buffer: &Buffer, index: u64, stride: u64) -> BindingResource<'_> {
     BindingResource::Buffer(wgpu::BufferBinding {
         buffer,
         offset: index * stride,

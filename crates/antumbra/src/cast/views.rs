@@ -72,16 +72,16 @@ impl CasterViews {
 
     pub(super) fn write(&self, queue: &wgpu::Queue, views: &[View]) {
         let all = views.iter().flat_map(|view| self.coverages.iter().map(move |coverage| (view, coverage)));
-        for (slot, (view, coverage)) in (0..).zip(all) {
+        for (index, (view, coverage)) in (0..).zip(all) {
             let bytes = CasterView::new(view, self.size, *coverage);
-            queue.write_buffer(&self.buffer, slot * self.stride, bytemuck::bytes_of(&bytes));
+            queue.write_buffer(&self.buffer, index * self.stride, bytemuck::bytes_of(&bytes));
         }
     }
 
     /// What a pass of a view binds, by its coverage's index.
     pub(super) fn binding(&self, view: usize, coverage: usize) -> BindingResource<'_> {
-        let slot = view * self.coverages.len() + coverage;
-        objects::slot::<CasterView>(&self.buffer, slot as u64, self.stride)
+        let index = view * self.coverages.len() + coverage;
+        objects::element::<CasterView>(&self.buffer, index as u64, self.stride)
     }
 
     pub(super) fn memory(&self, name: &str) -> MemoryItem {

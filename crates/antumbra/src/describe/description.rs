@@ -1,7 +1,7 @@
 //! A technique with its settings on a device, as data.
 
 use super::{
-    About, Binding, CasterStorage, Class, Constant, DepthSpace, Setting,
+    About, Binding, CasterStorage, Class, Constant, DepthSpace, Uniform,
     map::{Encode, Map},
 };
 use crate::{
@@ -28,10 +28,10 @@ pub struct Description {
     /// Files that fill the slots which the WGSL, or what it needs, leaves open, such as the lookup that the
     /// sampling setting chooses: `lookup_fitted` fills `lookup`.
     pub slots: Vec<&'static str>,
-    /// Compile-time settings of the WGSL.
+    /// Numbers that are compiled into the WGSL.
     pub constants: Vec<Constant>,
-    /// Run-time settings, which the WGSL reads as `x_name() -> f32`.
-    pub settings: Vec<Setting>,
+    /// Numbers that are set at run time, which the WGSL reads as `x_name() -> f32`.
+    pub uniforms: Vec<Uniform>,
     /// Kernel widths in texels, which the WGSL reads as `x_name(view: u32) -> f32`: each view has its own.
     pub widths: Vec<(&'static str, Width)>,
     /// The blur of the maps, if the WGSL asks `shadow_blur(view: u32) -> f32` for its variance in a
@@ -83,7 +83,7 @@ impl Description {
             wgsl: wgsl.into(),
             slots: Vec::new(),
             constants: Vec::new(),
-            settings: Vec::new(),
+            uniforms: Vec::new(),
             widths: Vec::new(),
             blur: None,
             storage: CasterStorage::Depth,

@@ -1,4 +1,4 @@
-//! What a technique's WGSL reads: bindings, settings, constants.
+//! What a technique's WGSL reads: bindings, uniforms, constants.
 
 /// A texture or sampler that the technique's WGSL function takes, in parameter order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -14,11 +14,11 @@ pub enum Binding {
     Sampler,
 }
 
-/// A run-time setting, `(name, value)`: a member of the uniform structs, which the WGSL of a technique named
-/// `x` reads as `x_name() -> f32`.
-pub type Setting = (&'static str, f32);
+/// A number that is set at run time, `(name, value)`: a member of the uniform structs, which the WGSL of a
+/// technique named `x` reads as `x_name() -> f32`.
+pub type Uniform = (&'static str, f32);
 
-/// A compile-time setting: the one-line `const NAME…;` of the technique's WGSL is replaced.
+/// A number that is compiled in: the one-line `const NAME…;` of the technique's WGSL is replaced.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Constant {
     /// `const NAME: u32 = …;`

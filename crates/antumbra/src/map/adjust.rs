@@ -46,10 +46,10 @@ impl ShadowMap {
 /// Whether two descriptions differ at most in what uniforms hold, and in what is told of them.
 fn same_but_for_numbers(new: &Description, old: &Description) -> bool {
     let names = |description: &Description| -> Vec<_> {
-        description.settings.iter().map(|(name, _)| *name).collect()
+        description.uniforms.iter().map(|(name, _)| *name).collect()
     };
     let like_old = Description {
-        settings: old.settings.clone(),
+        uniforms: old.uniforms.clone(),
         bias: old.bias,
         depth_quantum: old.depth_quantum,
         ringing: old.ringing,

@@ -79,7 +79,7 @@ impl Uniforms {
         let (width, height) = (options.size.width as f32, options.size.height as f32);
         let scalars = scalars(description, options.bias.terms(description.bias), options.size);
         let per_view = PerView::of(description);
-        let settings = description.settings.len();
+        let settings = description.uniforms.len();
         let room = options.views as usize;
         let buffer = |label, size: u64| {
             device.create_buffer(&wgpu::BufferDescriptor {
@@ -160,7 +160,7 @@ impl Uniforms {
 
 /// Size of the receivers' buffer: views, their count, nine scalars, settings.
 pub(super) fn bytes(description: &Description, views: u32) -> u64 {
-    let scalars = 4 * (10 + description.settings.len() as u64);
+    let scalars = 4 * (10 + description.uniforms.len() as u64);
     (u64::from(views) * view_bytes(description) + scalars).next_multiple_of(16)
 }
 
@@ -189,7 +189,7 @@ fn scalars(description: &Description, bias: BiasTerms, size: Size) -> Vec<f32> {
         bias.depth_steps * description.depth_quantum,
         bias.depth_steps,
     ];
-    fixed.into_iter().chain(description.settings.iter().map(|(_, value)| *value)).collect()
+    fixed.into_iter().chain(description.uniforms.iter().map(|(_, value)| *value)).collect()
 }
 
 fn extend(bytes: &mut Vec<u8>, numbers: impl Iterator<Item = f32>) {

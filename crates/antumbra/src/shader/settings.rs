@@ -16,7 +16,7 @@ pub(crate) enum Reader {
 
 /// Names of the members that all views share.
 pub(crate) fn once(description: &Description) -> impl Iterator<Item = String> {
-    description.settings.iter().map(|(name, _)| format!("setting_{name}"))
+    description.uniforms.iter().map(|(name, _)| format!("setting_{name}"))
 }
 
 /// Names of the members that each view has: widths of kernels in texels, the variance of the blur.
@@ -30,7 +30,7 @@ pub(crate) fn per_view(description: &Description) -> impl Iterator<Item = String
 pub(crate) fn accessors(composition: &Composition, reader: Reader) -> String {
     let Composition { description, .. } = composition;
     let technique = description.about.name;
-    let once = description.settings.iter().zip(once(description)).map(|((name, value), member)| {
+    let once = description.uniforms.iter().zip(once(description)).map(|((name, value), member)| {
         let read = match reader {
             Reader::Receiver => format!("shadow.{member}"),
             Reader::Convert => format!("convert.{member}"),

@@ -209,7 +209,7 @@ impl Technique for Csm {
         described
             .constants
             .extend([Constant::Count("csm_terms", self.terms), Constant::Array("csm_weights", weights)]);
-        described.settings =
+        described.uniforms =
             vec![("span", self.span()), ("offset", self.lift_offset()), ("scale", self.scale())];
         described.ringing = self.ringing();
         described.fetches *= self.layers();

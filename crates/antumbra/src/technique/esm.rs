@@ -226,7 +226,7 @@ impl Technique for Esm {
         let values = self.values(device);
         let mut described = Description::filtered(self.about(), self.wgsl(), &self.filter, values, device);
         described.constants.push(Constant::Count("esm_logarithms", u32::from(self.is_logarithmic())));
-        described.settings =
+        described.uniforms =
             vec![("c", self.steepness()), ("epsilon", self.epsilon), ("offset", self.offset)];
         if self.classifier != Classifier::None {
             described.classes = &FAILED;

@@ -208,7 +208,7 @@ impl Technique for Evsm {
         };
         described.constants.push(Constant::Count("evsm_warps", warps));
         let ([positive, negative], [rounding, denormal]) = (self.exponents(), self.rounding());
-        described.settings = vec![
+        described.uniforms = vec![
             ("positive", positive),
             ("negative", negative),
             ("least_variance", self.least_variance),

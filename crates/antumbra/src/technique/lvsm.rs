@@ -135,7 +135,7 @@ impl Technique for Lvsm {
         };
         let mut described = Description::filtered(self.about(), wgsl, &self.filter, self.values(), device);
         described.constants.push(Constant::Count("lvsm_intervals", self.intervals));
-        described.settings = vec![
+        described.uniforms = vec![
             ("overlap", self.overlap),
             ("least_variance", self.least_variance),
             ("slope", self.slope),

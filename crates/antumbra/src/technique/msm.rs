@@ -151,7 +151,7 @@ impl Technique for Msm {
         let mut described = Description::filtered(self.about(), wgsl, &self.filter, values, device);
         let transformed = u32::from(self.format == Format::Unorm16);
         described.constants.push(Constant::Count("msm_transformed", transformed));
-        described.settings = vec![("moment_bias", self.bias_share()), ("reduction", self.reduction)];
+        described.uniforms = vec![("moment_bias", self.bias_share()), ("reduction", self.reduction)];
         described.ringing = self.leak();
         Ok(described)
     }

@@ -128,7 +128,7 @@ impl Technique for Vsm {
             "vsm_slope_of_receiver",
             u32::from(self.slope_of == SlopeOf::Receiver),
         ));
-        described.settings = vec![
+        described.uniforms = vec![
             ("least_variance", least_variance),
             ("rounding", rounding),
             ("reduction", self.reduction),

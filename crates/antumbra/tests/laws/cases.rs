@@ -12,9 +12,9 @@ pub(crate) fn described(gpu: &Gpu, technique: &dyn Technique) -> Description {
     technique.describe(&Capabilities::of(&gpu.device)).unwrap()
 }
 
-/// A run-time setting, if there is one of that name.
+/// The value of a uniform, if there is one of that name.
 pub(crate) fn setting(described: &Description, name: &str) -> Option<f32> {
-    described.settings.iter().find(|(n, _)| *n == name).map(|(_, value)| *value)
+    described.uniforms.iter().find(|(n, _)| *n == name).map(|(_, value)| *value)
 }
 
 /// Sets a parameter where there is one.

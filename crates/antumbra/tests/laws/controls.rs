@@ -62,7 +62,7 @@ fn basis() -> Vec<Control> {
                 "select(exp(esm_c() * depth), 0.0, depth == 1.0), 0.0, 0.0",
             ),
         ),
-        ("a series without offset", is_lit_without_casters, Broken::new("csm").setting("offset", 0.0)),
+        ("a series without offset", is_lit_without_casters, Broken::new("csm").uniform("offset", 0.0)),
         (
             "the sign of d − z reversed",
             is_dark_behind_a_blocker,
@@ -91,7 +91,7 @@ fn bounds() -> Vec<Control> {
         (
             "far too much variance",
             shrinks_to_the_hard_shadow,
-            Broken::new("vsm").setting("least_variance", 0.01),
+            Broken::new("vsm").uniform("least_variance", 0.01),
         ),
         (
             "a light that leaks at the receiver's own scale",
@@ -103,7 +103,7 @@ fn bounds() -> Vec<Control> {
             is_lit_without_casters,
             Broken::saying("evsm", "-exp(-evsm_negative() * z)", "exp(-evsm_negative() * z)"),
         ),
-        ("moments without bias", is_lit_without_casters, Broken::new("msm").setting("moment_bias", 0.0)),
+        ("moments without bias", is_lit_without_casters, Broken::new("msm").uniform("moment_bias", 0.0)),
         (
             "a root on the wrong side",
             is_dark_behind_a_blocker,

@@ -162,8 +162,8 @@ impl IdCast {
             let entries = allocated.entries(plan, step);
             let layout = objects::layout(device, name, &entries.types);
             let group = |view: u32| {
-                let slot = u64::from(number * site.views + view);
-                let step = objects::slot::<CasterStep>(&uniforms, slot, stride);
+                let index = u64::from(number * site.views + view);
+                let step = objects::element::<CasterStep>(&uniforms, index, stride);
                 allocated.bind(
                     device,
                     (name, &layout),

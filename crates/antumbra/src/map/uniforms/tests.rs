@@ -150,7 +150,7 @@ fn what_is_written_lies_where_the_shader_reads_it() {
             ("constant_depth".into(), 4.5 * description.depth_quantum),
             ("float_steps".into(), 4.5),
         ];
-        expected.extend(description.settings.iter().map(|(n, v)| (format!("setting_{n}"), *v)));
+        expected.extend(description.uniforms.iter().map(|(n, v)| (format!("setting_{n}"), *v)));
         assert_eq!(members[0].0, "views");
         assert_eq!(members[1].0, "view_count");
         assert_eq!(u32::from_ne_bytes(word(members[1].1)), 2);
