@@ -1,11 +1,13 @@
 # make demo    compare all techniques on the fence scene and say where the report is
 # make test    everything that must hold before a change lands
 # make bench   times on the fence scene
+# make docs    the documents with tables, from their templates and docs/results
+# make results measures anew what docs/results holds of this machine; an hour in which it does nothing else
 # make setup   what the three above do first: a Vulkan driver if the machine has none
 # make msrv    the library with the lowest compiler that it promises, without features and with all
 # make portability   every shader through a browser's compiler, pictures and laws on a second driver; needs Node
 
-.PHONY: demo test bench setup fmt clippy doc check-wasm portability msrv deny golden
+.PHONY: demo test bench docs results setup fmt clippy doc check-wasm portability msrv deny golden
 
 CARGO ?= cargo
 export RUSTDOCFLAGS = -D warnings
@@ -22,6 +24,20 @@ test: setup fmt clippy doc check-wasm
 bench: setup
 	$(CARGO) run --release --bin antumbra -- bench fence --kernel 7 \
 		--techniques hard pcf vsm esm csm.terms=4 csm
+
+docs:
+	$(CARGO) run --release -p antumbra-docs
+
+# Runs a command that prints JSON and keeps that as a result file.
+KEEP = target/release/antumbra-docs keep
+PROGRAM = target/release/antumbra
+results: setup
+	$(CARGO) build --release --bin antumbra --bin antumbra-docs
+	$(KEEP) fence $(PROGRAM) bench fence --kernel 7 --rounds 9 --json --techniques all csm.terms=4 \
+		pcf.taps=nearest pcf.taps=bilinear pcf.taps=merged esm.classifier=none esm.classifier=zmax spsm.layers=1 \
+		esm.kernel=31 esm.sampling=summed vsm.sampling=summed csm.terms=4,sampling=summed
+	$(KEEP) start-up env MESA_SHADER_CACHE_DISABLE=true $(PROGRAM) bench fence --rounds 1 --start-up --json
+	$(MAKE) docs
 
 setup:
 	@sh scripts/setup.sh

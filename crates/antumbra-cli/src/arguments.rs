@@ -218,6 +218,9 @@ pub(crate) struct Bench {
     /// Frames that are timed, per technique
     #[arg(long, default_value_t = 15)]
     pub(crate) rounds: u32,
+    /// Time too what each takes until its first frame is drawn, compiling its shaders
+    #[arg(long)]
+    pub(crate) start_up: bool,
     /// Print the times as JSON instead of a table
     #[arg(long)]
     pub(crate) json: bool,

@@ -140,11 +140,13 @@ fn biases() {
     let bias = ["bias", "contact", "layers", "--techniques", "hard"];
     let table = folder.run(&[&bias[..], &small[..]].concat()).good();
     assert!(table.contains("contact\n") && table.contains("layers\n"), "{table}");
-    assert_eq!(table.matches("constant_texels=1,slope_texels=2").count(), 2, "{table}");
+    // In both scenes, and over both.
+    assert_eq!(table.matches("constant_texels=1,slope_texels=2  ").count(), 3, "{table}");
     let some = ["--settings", "none", "receiver_plane=1,constant_texels=2", "--json"];
     let rows: Value =
         serde_json::from_str(&folder.run(&[&bias[..], &small[..], &some[..]].concat()).good()).unwrap();
-    let [none, plane] = [0, 1].map(|i| &rows["contact"]["rows"][i]);
+    assert_eq!((&rows["schema"], &rows["scenes"][1]["scene"]), (&"antumbra-bias/1".into(), &"layers".into()));
+    let [none, plane] = [0, 1].map(|i| &rows["scenes"][0]["rows"][i]);
     assert_eq!(plane["bias"], "constant_texels=2,receiver_plane=1");
     assert!(none["acne"].as_f64().unwrap() > 0.2 && plane["acne"].as_f64().unwrap() < 0.01, "{rows}");
     // The same by eye.

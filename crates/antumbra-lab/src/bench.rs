@@ -5,7 +5,7 @@ use crate::{
     gpu::Gpu,
     prepared::Prepared,
     progress::Progress,
-    results::{Family, LeftOut, MemoryResult, RunFacts, TimeResult, Work},
+    results::{Family, LeftOut, MemoryResult, RunFacts, StartUp, TimeResult, Work},
     session::Session,
     shot::Shot,
     truth::{TracedShot, Truth},
@@ -17,6 +17,21 @@ use std::time::Instant;
 
 /// Name and version of the schema. Keys have the names that they have in a comparison's results.
 pub const SCHEMA: &str = "antumbra-bench/1";
+
+/// What to time.
+#[derive(Debug)]
+pub struct Request<'a> {
+    /// The scene, how it is seen and lit, and its maps.
+    pub shot: &'a Shot,
+    /// The techniques.
+    pub techniques: &'a [Box<dyn Technique>],
+    /// Frames that are timed, per technique.
+    pub rounds: u32,
+    /// Whether start-up is timed too.
+    pub start_up: bool,
+    /// The command line, for the results.
+    pub command: Vec<String>,
+}
 
 /// Everything that was timed.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -58,6 +73,9 @@ pub struct TechniqueTime {
     pub family: Family,
     /// Cost in time; ratios are to `hard` if that was among the techniques.
     pub time: TimeResult,
+    /// What it costs before the second frame, if that was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub start_up: Option<StartUp>,
     /// Cost in memory.
     pub memory: MemoryResult,
     /// Cost that does not depend on the device's speed.
@@ -67,21 +85,20 @@ pub struct TechniqueTime {
     pub invalid: Option<String>,
 }
 
-/// Times all `techniques` in turns, `rounds` frames each, and then the hard truth.
+/// Times all techniques in turns, and then the hard truth.
 ///
 /// # Errors
 /// As [`Session::new`]; a lost device.
-pub fn measure(
-    gpu: &Gpu,
-    shot: &Shot,
-    techniques: &[Box<dyn Technique>],
-    rounds: u32,
-    command: Vec<String>,
-    progress: &dyn Progress,
-) -> Result<Results> {
+pub fn measure(gpu: &Gpu, request: Request<'_>, progress: &dyn Progress) -> Result<Results> {
+    let Request { shot, techniques, rounds, start_up, command } = request;
     progress.step("upload");
     let session = Session::new(gpu, shot, techniques)?;
     progress.step("time");
+    let start_ups: Vec<Option<StartUp>> = session
+        .prepared()
+        .iter()
+        .map(|prepared| start_up.then(|| session.start_up(prepared)).transpose())
+        .collect::<Result<_>>()?;
     let times = session.time(rounds, progress)?;
     progress.step("truth");
     let start = Instant::now();
@@ -90,18 +107,19 @@ pub fn measure(
     let start = Instant::now();
     traced.trace(Truth::Hard, session.views(), progress)?;
     let truth = TruthTime { seconds_build, seconds_hard: start.elapsed().as_secs_f64() };
+    let timed = session.prepared().iter().zip(times.techniques).zip(start_ups);
     Ok(Results {
         schema: SCHEMA.into(),
         run: facts::run(gpu, &session, command)?,
         truth,
         unshadowed: times.unshadowed,
-        techniques: session.prepared().iter().zip(times.techniques).map(timed).collect(),
+        techniques: timed.map(|((prepared, time), start_up)| of(prepared, time, start_up)).collect(),
         left_out: session.left_out().to_vec(),
     })
 }
 
 /// One entry of the results.
-fn timed((prepared, time): (&Prepared, TimeResult)) -> TechniqueTime {
+fn of(prepared: &Prepared, time: TimeResult, start_up: Option<StartUp>) -> TechniqueTime {
     let shadows = &prepared.shadows;
     let about = shadows.technique().about();
     TechniqueTime {
@@ -110,6 +128,7 @@ fn timed((prepared, time): (&Prepared, TimeResult)) -> TechniqueTime {
         title: about.title.into(),
         family: about.family,
         time,
+        start_up,
         memory: facts::memory(&shadows.memory()),
         work: facts::work(shadows),
         invalid: prepared.invalid(),

@@ -20,6 +20,10 @@ use rayon::prelude::*;
 use serde::Serialize;
 use std::collections::{BTreeMap, btree_map};
 
+mod standings;
+
+pub use standings::{Place, Standing, Standings, standings};
+
 /// Width of a bin of gaps between receiver and caster, texels.
 const BIN_TEXELS: f64 = 0.5;
 /// Gaps up to which shadows are looked at, texels.

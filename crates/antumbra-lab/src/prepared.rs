@@ -3,11 +3,13 @@
 use crate::{
     gpu::{Gpu, Wait},
     occupancy::Occupancy,
+    results::StartUp,
     timing::TimedFrame,
 };
-use antumbra::{Capacity, Options, ShadowMap, Technique, View};
+use antumbra::{Capacity, Options, Pipelines, ShadowMap, Technique, View};
 use antumbra_render::{Casters, GpuScene, Lighting, Lookup};
 use anyhow::Result;
+use std::time::Instant;
 
 /// A technique with all that drawing it takes.
 #[derive(Debug)]
@@ -106,6 +108,19 @@ impl Prepared {
         self.shadows.encode(encoder, |pass| scene.draw_casters(&self.casters, pass))?;
         lighting.encode_lookup(encoder, scene, &self.lookup, Some(&self.shadows), None);
         Ok(())
+    }
+
+    /// What it costs another map of the same kind, which shares nothing with this one, to draw its first frame.
+    pub(crate) fn start_up(&self, gpu: &Gpu, scene: &GpuScene, lighting: &Lighting) -> Result<StartUp> {
+        let options = self.options.clone().pipelines(&Pipelines::new(&gpu.device));
+        let start = Instant::now();
+        let mut other = Self::new(gpu, scene, self.shadows.technique(), &options, self.entry)?;
+        other.set_views(gpu, scene, self.shadows.views())?;
+        gpu.run(|_| Ok(()))?;
+        let set_up_ms = start.elapsed().as_secs_f64() * 1e3;
+        let start = Instant::now();
+        gpu.run(|encoder| other.encode(encoder, scene, lighting))?;
+        Ok(StartUp { set_up_ms, first_frame_ms: start.elapsed().as_secs_f64() * 1e3 })
     }
 
     /// A frame to be timed.

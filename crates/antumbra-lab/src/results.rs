@@ -18,7 +18,7 @@ mod csv;
 mod scene;
 
 pub use antumbra::{Lifetime, MemoryItem, technique::Family};
-pub use cost::{MemoryResult, PassTime, Spread, TimeMethod, TimeResult, Work};
+pub use cost::{MemoryResult, PassTime, Spread, StartUp, TimeMethod, TimeResult, Work};
 pub use scene::{BoundsFacts, CameraFacts, LensFacts, LightFacts, SceneFacts, ViewFacts};
 
 /// Name and version of the schema.

@@ -7,7 +7,7 @@ use crate::{
     prepared::Prepared,
     progress::Progress,
     readback,
-    results::{LeftOut, Refused, TimeResult},
+    results::{LeftOut, Refused, StartUp, TimeResult},
     shot::{Entry, Shot},
     timing::{self, TimedFrame},
 };
@@ -285,6 +285,14 @@ impl<'g> Session<'g> {
     pub fn picture_of(&self, visibility: &GrayImage) -> Result<Rgba8Image> {
         self.lighting.write_visibility(self.gpu, &visibility.values);
         self.picture()
+    }
+
+    /// What it costs to set up a technique anew and draw its first frame.
+    ///
+    /// # Errors
+    /// As [`prepare`](Self::prepare).
+    pub fn start_up(&self, prepared: &Prepared) -> Result<StartUp> {
+        prepared.start_up(self.gpu, &self.scene, &self.lighting)
     }
 
     /// Times whole frames of all techniques in turns, `rounds` each, and of shading without any shadow.

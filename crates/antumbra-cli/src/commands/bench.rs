@@ -3,7 +3,7 @@
 use super::table;
 use crate::{arguments::Bench, progress::Bar, scene, techniques};
 use antumbra_lab::{
-    bench::{self, TechniqueTime},
+    bench::{self, Request, TechniqueTime},
     gpu,
     results::TimeResult,
     timing,
@@ -21,7 +21,14 @@ pub(crate) fn run(arguments: &Bench) -> Result<()> {
     let gpu = gpu::open()?;
     let results = {
         let bar = Bar::new([("upload", 1.0), ("time", f64::from(arguments.rounds)), ("truth", 2.0)]);
-        bench::measure(&gpu, &shot, &techniques, arguments.rounds, super::command_given(), &bar)?
+        let request = Request {
+            shot: &shot,
+            techniques: &techniques,
+            rounds: arguments.rounds,
+            start_up: arguments.start_up,
+            command: super::command_given(),
+        };
+        bench::measure(&gpu, request, &bar)?
     };
     super::note_run(&results.run, &results.left_out);
     let out = &mut io::stdout();
@@ -44,9 +51,13 @@ fn print(out: &mut impl Write, results: &bench::Results) -> Result<()> {
             .chain([time.frame_ratio_to_hard, time.lookup_ratio_to_hard].map(ratio))
             .collect()
     };
+    let start_up = results.techniques.iter().any(|t| t.start_up.is_some());
     let technique = |t: &TechniqueTime| match &t.invalid {
         Some(why) => vec![t.spec.clone(), format!("invalid: {why}")],
-        None => row(&t.spec, &t.time),
+        None => {
+            let start_up = t.start_up.iter().flat_map(|s| [s.set_up_ms, s.first_frame_ms]);
+            row(&t.spec, &t.time).into_iter().chain(start_up.map(milliseconds)).collect()
+        }
     };
     let rows: Vec<Vec<String>> = std::iter::once(row("none", &results.unshadowed))
         .chain(results.techniques.iter().map(technique))
@@ -58,7 +69,9 @@ fn print(out: &mut impl Write, results: &bench::Results) -> Result<()> {
         results.unshadowed.rounds, results.unshadowed.frame_method
     )?;
     let last = ["frame", "min", "max", "× hard", "lookup × hard"];
-    let header: Vec<&str> = std::iter::once("technique").chain(PASSES).chain(last).collect();
+    let first: &[&str] = if start_up { &["set-up", "first frame"] } else { &[] };
+    let header: Vec<&str> =
+        std::iter::once("technique").chain(PASSES).chain(last).chain(first.iter().copied()).collect();
     table::print(out, &header, &rows)?;
     let truth = results.truth.seconds_build + results.truth.seconds_hard;
     writeln!(out, "ray-traced hard truth, acceleration structure included: {truth:.2} s")?;

@@ -21,6 +21,16 @@ pub struct TimeResult {
     pub frame_ratio_to_hard: Option<f64>,
 }
 
+/// What a technique costs before its second frame: with shaders and pipelines of its own, none of which is
+/// compiled yet.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct StartUp {
+    /// To put its shaders together, allocate its maps and make all pipelines, milliseconds.
+    pub set_up_ms: f64,
+    /// To cast, filter and look up once, milliseconds; drivers compile then what they put off.
+    pub first_frame_ms: f64,
+}
+
 /// Time of one pass.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PassTime {
