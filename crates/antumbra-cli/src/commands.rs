@@ -54,6 +54,9 @@ fn command_given() -> Vec<String> {
 
 /// Says what makes results less than they could be, and which techniques were left out.
 fn note_run(run: &RunFacts, left_out: &[LeftOut]) {
+    for warning in &run.warnings {
+        let _ = writeln!(std::io::stderr(), "warning: {warning}");
+    }
     run.notes.iter().for_each(|text| output::note(text));
     note_left_out(left_out);
 }

@@ -364,6 +364,7 @@ fn results(truth: &Truth, techniques: Vec<TechniqueResult>) -> Result<Results, B
                 device_type: "none".into(),
                 features: vec!["float32-filterable".into(), "timestamp-query".into()],
             },
+            warnings: Vec::new(),
             notes: Vec::new(),
         },
         cascades: None,

@@ -67,9 +67,11 @@ pub fn compare(gpu: &Gpu, request: &Request, progress: &dyn Progress) -> Result<
     let times = session.time(request.rounds, progress)?.techniques;
     let measured = session.prepared().iter().zip(rendered).zip(times);
     let techniques = measured.map(|((prepared, rendered), time)| entry(prepared, rendered, time)).collect();
+    let mut run = facts::run(gpu, &session, request.command.clone())?;
+    run.warnings.extend(facts::coverage_warning(&truths.facts, run.resolution));
     let results = Results {
         schema: SCHEMA.into(),
-        run: facts::run(gpu, &session, request.command.clone())?,
+        run,
         cascades,
         truth: truths.facts,
         techniques,

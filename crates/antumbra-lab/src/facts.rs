@@ -4,7 +4,7 @@ use crate::{
     gpu::Gpu,
     results::{
         AdapterFacts, BoundsFacts, CameraFacts, LensFacts, Lifetime, LightFacts, MemoryItem, MemoryResult,
-        Program, RunFacts, SceneFacts, ViewFacts, Work,
+        Program, RunFacts, SceneFacts, TruthFacts, ViewFacts, Work,
     },
     session::Session,
     shot::Shot,
@@ -56,10 +56,12 @@ pub fn program() -> Program {
 /// What was run.
 pub(crate) fn run(gpu: &Gpu, session: &Session<'_>, command: Vec<String>) -> Result<RunFacts> {
     let shot = session.shot();
+    let scene = scene(shot)?;
     Ok(RunFacts {
         program: program(),
         command,
-        scene: scene(shot)?,
+        warnings: extent_warning(&scene.bounds).into_iter().collect(),
+        scene,
         resolution: shot.resolution,
         map_size: shot.map_size,
         kernel_texels: shot.kernel,
@@ -67,6 +69,34 @@ pub(crate) fn run(gpu: &Gpu, session: &Session<'_>, command: Vec<String>) -> Res
         views: views(session.views()),
         adapter: adapter(gpu),
         notes: session.notes(),
+    })
+}
+
+/// Extents of scenes that 32-bit numbers resolve: shaders take the areas of receivers per unit of world area, which is
+/// below what they tell from nothing where a scene is larger; where one is smaller its own areas are.
+const EXTENTS: std::ops::Range<f32> = 1e-19..1e14;
+
+/// Said of scenes of any other extent.
+fn extent_warning(bounds: &BoundsFacts) -> Option<String> {
+    let across = (0..3).map(|k| (bounds.max[k] - bounds.min[k]).abs()).fold(0.0, f32::max);
+    (!EXTENTS.contains(&across)).then(|| {
+        format!(
+            "the scene is {across:e} units across, which 32-bit numbers do not resolve; do not trust these numbers, or \
+             scale the scene to {:e} to {:e} units",
+            EXTENTS.start, EXTENTS.end
+        )
+    })
+}
+
+/// Said where raster and rays see different things in more than a thousandth of the pixels.
+pub(crate) fn coverage_warning(truth: &TruthFacts, resolution: [u32; 2]) -> Option<String> {
+    let pixels = u64::from(resolution[0]) * u64::from(resolution[1]);
+    let unexplained = truth.coverage_explained.get("unexplained").copied().unwrap_or(0);
+    (1000 * unexplained > pixels).then(|| {
+        format!(
+            "raster and rays see different triangles in {unexplained} of {pixels} pixels, for no good reason; do not \
+             trust these scores"
+        )
     })
 }
 
@@ -125,4 +155,26 @@ pub(crate) fn peak_memory() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
     line.split_whitespace().next()?.parse::<u64>().ok().map(|kib| kib * 1024)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn extents_that_are_not_resolved_are_told() {
+        let warning = |across: f32| {
+            let bounds =
+                BoundsFacts { min: [-across / 2.0, 0.0, 0.0], max: [across / 2.0, 0.1 * across, 0.0] };
+            extent_warning(&bounds)
+        };
+        for across in [1e-18, 1.0, 9e13] {
+            assert_eq!(warning(across), None);
+        }
+        for (across, text) in
+            [(0.0, "0e0 units"), (1e-20, "1e-20 units"), (2e14, "2e14 units"), (1e30, "1e30 units")]
+        {
+            assert!(warning(across).unwrap().contains(text), "{across}: {:?}", warning(across));
+        }
+    }
 }

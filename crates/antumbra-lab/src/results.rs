@@ -74,6 +74,9 @@ pub struct RunFacts {
     pub views: Vec<ViewFacts>,
     /// The graphics adapter.
     pub adapter: AdapterFacts,
+    /// Why no number here is to be trusted, if so: one sentence each. Added later.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub warnings: Vec<String>,
     /// What makes the results less than they could be: one sentence each. Added later.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,

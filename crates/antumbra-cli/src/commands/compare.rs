@@ -55,31 +55,8 @@ pub(crate) fn run(arguments: &Compare) -> Result<()> {
     Ok(())
 }
 
-/// Extents of scenes that shaders can square.
-const SIZES: std::ops::Range<f32> = 1e-19..1e19;
-
-/// Scores mean little where raster and rays see different things, or where triangles were left out.
+/// Says what makes scores mean little.
 fn warn(results: &Results) {
-    let pixels = u64::from(results.run.resolution[0]) * u64::from(results.run.resolution[1]);
-    let unexplained = results.truth.coverage_explained.get("unexplained").copied().unwrap_or(0);
-    if 1000 * unexplained > pixels {
-        let _ = writeln!(
-            io::stderr(),
-            "warning: raster and rays see different triangles in {unexplained} of {pixels} pixels, for no good \
-             reason; do not trust these scores (is the scene of extreme size?)"
-        );
-    }
-    let bounds = &results.run.scene.bounds;
-    let across = (0..3).map(|k| (bounds.max[k] - bounds.min[k]).abs()).fold(0.0, f32::max);
-    if !SIZES.contains(&across) {
-        let _ = writeln!(
-            io::stderr(),
-            "warning: the scene is {across:e} units across, and squares of such lengths are no 32-bit numbers; do not \
-             trust these scores, or scale the scene to {:e} to {:e} units",
-            SIZES.start,
-            SIZES.end
-        );
-    }
     if results.truth.shows_no_shadow() {
         let _ = writeln!(
             io::stderr(),
@@ -165,6 +142,9 @@ fn row(t: &TechniqueResult) -> Vec<String> {
 
 /// What stands below the table.
 fn print_notes(out: &mut impl Write, results: &Results) -> Result<()> {
+    for warning in &results.run.warnings {
+        writeln!(out, "warning: {warning}")?;
+    }
     for note in &results.run.notes {
         writeln!(out, "{note}")?;
     }

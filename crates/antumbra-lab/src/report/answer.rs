@@ -98,7 +98,7 @@ pub(super) fn paragraph(results: &Results) -> String {
     )
 }
 
-/// Notes of the run; techniques whose numbers are worth nothing or do not exist, and why.
+/// Warnings and notes of the run; techniques whose numbers are worth nothing or do not exist, and why.
 fn missing(results: &Results) -> String {
     let invalid = results.techniques.iter().filter_map(|t| Some((&t.spec, "invalid", t.invalid.as_ref()?)));
     let left_out = results.left_out.iter().map(|l| (&l.spec, "left out", &l.reason));
@@ -106,7 +106,9 @@ fn missing(results: &Results) -> String {
         format!("<p class=\"quiet\"><code>{}</code> {what}: {}.</p>", escape(spec), escape(why))
     };
     let note = |text: &String| format!("<p class=\"quiet\">{}.</p>", escape(text));
-    results.run.notes.iter().map(note).chain(invalid.chain(left_out).map(line)).collect()
+    let warning = |text: &String| format!("<p><strong>Warning: {}.</strong></p>", escape(text));
+    let warnings = results.run.warnings.iter().map(warning);
+    warnings.chain(results.run.notes.iter().map(note)).chain(invalid.chain(left_out).map(line)).collect()
 }
 
 fn other_truths(results: &Results) -> Option<String> {

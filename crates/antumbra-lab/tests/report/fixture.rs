@@ -141,6 +141,7 @@ pub(crate) fn results() -> Results {
                 device_type: "Cpu".into(),
                 features: vec![],
             },
+            warnings: Vec::new(),
             notes: Vec::new(),
         },
         cascades: None,

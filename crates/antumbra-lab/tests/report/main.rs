@@ -63,6 +63,7 @@ fn what_is_invalid_or_left_out_is_said_and_has_no_rank() {
     let mut some = results();
     some.techniques[1].invalid = Some("shadows are <missing>".into());
     some.run.notes = vec!["exact: holes are <coarse>".into()];
+    some.run.warnings = vec!["the scene is <vast>".into()];
     some.left_out = vec![LeftOut { spec: "dpm.keeps=9".into(), reason: "too large".into() }];
     let out = write(&some, &folder.0.join("report")).unwrap();
     let page = fs::read_to_string(out.join("index.html")).unwrap();
@@ -72,6 +73,7 @@ fn what_is_invalid_or_left_out_is_said_and_has_no_rank() {
         assert!(table.contains(text), "{text} is missing in: {table}");
     }
     assert!(page.contains("exact: holes are &lt;coarse&gt;."));
+    assert!(page.contains("<strong>Warning: the scene is &lt;vast&gt;.</strong>"));
     let row = table.split("</tr>").find(|row| row.contains("esm.c=80")).unwrap();
     assert_eq!(row.matches("<td").count(), 1, "{row}");
     let csv = some.csv();
@@ -79,7 +81,7 @@ fn what_is_invalid_or_left_out_is_said_and_has_no_rank() {
     assert_eq!(numbers.trim_start_matches(','), "shadows are <missing>");
     let read = Results::read(&out.join("results.json")).unwrap();
     assert_eq!((&read.left_out, &read.techniques[1].invalid), (&some.left_out, &some.techniques[1].invalid));
-    assert_eq!(read.run.notes, some.run.notes);
+    assert_eq!((&read.run.notes, &read.run.warnings), (&some.run.notes, &some.run.warnings));
     assert_eq!(read.valid().count(), 1);
 }
 

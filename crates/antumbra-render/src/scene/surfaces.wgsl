@@ -31,8 +31,14 @@ struct Surface {
     @location(3) albedo: vec4f,
 }
 
+/// The same direction at a length near 1: squares of products of lengths in world units may be no 32-bit numbers.
+fn scaled(v: vec3f) -> vec3f {
+    let size = abs(v);
+    return v / max(size.x, max(size.y, size.z));
+}
+
 fn surface_of(in: Varying) -> Surface {
-    let across = cross(dpdx(in.relative), dpdy(in.relative));
+    let across = cross(scaled(dpdx(in.relative)), scaled(dpdy(in.relative)));
     var facet = normalize(across);
     if !(dot(across, across) > 0.0) {
         facet = normalize(in.normal);
