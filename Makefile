@@ -3,11 +3,12 @@
 # make bench   times on the fence scene
 # make docs    the documents with tables, from their templates and docs/results
 # make results measures anew what docs/results holds of this machine; an hour in which it does nothing else
-# make setup   what the three above do first: a Vulkan driver if the machine has none
+# make proof   a technique and a store of somebody else's keep the laws; part of `make test`
+# make setup   what the first three do first: a Vulkan driver if the machine has none
 # make msrv    the library with the lowest compiler that it promises, without features and with all
 # make portability   every shader through a browser's compiler, pictures and laws on a second driver; needs Node
 
-.PHONY: demo test bench docs results setup fmt clippy doc check-wasm portability msrv deny golden
+.PHONY: demo test proof bench docs results setup fmt clippy doc check-wasm portability msrv deny golden
 
 CARGO ?= cargo
 export RUSTDOCFLAGS = -D warnings
@@ -18,8 +19,13 @@ demo: setup
 
 test: setup fmt clippy doc check-wasm
 	$(CARGO) test --release --workspace
-	$(CARGO) test --release -p antumbra --features store --test store
+	$(MAKE) proof
 	@echo "not tried here: a browser's compiler, and a second driver (make portability; needs Node)"
+
+# With the versions of the workspace and what it has built. A bare `cargo test` in proof/ does as well.
+proof: setup
+	cp Cargo.lock proof/Cargo.lock
+	cd proof && CARGO_TARGET_DIR=$(CURDIR)/target $(CARGO) test --release
 
 bench: setup
 	$(CARGO) run --release --bin antumbra -- bench fence --kernel 7 \
@@ -44,6 +50,7 @@ setup:
 
 fmt:
 	$(CARGO) fmt --all --check
+	cd proof && $(CARGO) fmt --check
 
 clippy:
 	$(CARGO) clippy --release --workspace --all-targets -- -D warnings

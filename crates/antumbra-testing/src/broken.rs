@@ -16,14 +16,20 @@ pub struct Broken {
 }
 
 impl Broken {
-    /// Nothing wrong yet.
+    /// A technique of the library, nothing wrong yet.
     ///
     /// # Panics
     /// If the library cannot read `spec`.
     #[must_use]
     #[allow(clippy::expect_used, reason = "tests fail by panicking")]
     pub fn new(spec: &str) -> Self {
-        Self { inner: technique::parse(spec).expect("a technique"), edits: Vec::new() }
+        Self::of(technique::parse(spec).expect("a technique").as_ref())
+    }
+
+    /// Any technique, nothing wrong yet.
+    #[must_use]
+    pub fn of(technique: &dyn Technique) -> Self {
+        Self { inner: technique.clone_box(), edits: Vec::new() }
     }
 
     /// With this wrong in its description, too.
@@ -33,14 +39,23 @@ impl Broken {
         self
     }
 
+    /// A technique of the library with other words in its WGSL.
+    ///
+    /// # Panics
+    /// As [`new`](Self::new) and [`replacing`](Self::replacing).
+    #[must_use]
+    pub fn saying(spec: &str, right: &str, wrong: &str) -> Self {
+        Self::new(spec).replacing(right, wrong)
+    }
+
     /// With other words in its WGSL.
     ///
     /// # Panics
     /// When it is described, if `right` is not in it.
     #[must_use]
-    pub fn saying(spec: &str, right: &str, wrong: &str) -> Self {
+    pub fn replacing(self, right: &str, wrong: &str) -> Self {
         let [right, wrong] = [right, wrong].map(String::from);
-        Self::new(spec).with(move |described| {
+        self.with(move |described| {
             assert!(described.wgsl.contains(&right), "{right}");
             described.wgsl = described.wgsl.replace(&right, &wrong).into();
         })

@@ -1,7 +1,10 @@
-//! What GPU tests share: one device, error scopes, a test runner that can say "ignored".
+//! What GPU tests share: one device, error scopes, a test runner that can say "ignored"; and the laws of all
+//! techniques.
 
+pub mod ask;
 pub mod broken;
 pub mod image;
+pub mod laws;
 pub mod settings;
 pub mod shaders;
 

@@ -2,11 +2,9 @@
 
 #![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
 
-mod common;
-
 use antumbra::{Depth, NoProbe, ShadowMap, Size, Technique, Unsupported, technique, technique::Bias};
+use antumbra_testing::ask::{Random, Receiver, depth_layers, view, visibility};
 use antumbra_testing::{Gpu, Trials};
-use common::{Random, Receiver, depth_layers, view, visibility};
 
 const SIZE: Size = Size::square(32);
 

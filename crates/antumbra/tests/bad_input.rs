@@ -3,14 +3,12 @@
 
 #![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
 
-mod common;
-
 use antumbra::{
     Capabilities, Capacity, Csm, Dpm, Esm, Evsm, Exact, Filter, Hard, LightError, NoProbe, Options, Pcf,
     Pipelines, Sampling, SettingError, ShadowMap, Size, Technique, Unsupported, Vsm, technique,
     technique::{BiasTerms, evsm},
 };
-use antumbra_testing::{Gpu, Trials};
+use antumbra_testing::{Gpu, Trials, ask};
 
 const SIZE: Size = Size::square(16);
 
@@ -57,7 +55,7 @@ fn uniforms(_: &Gpu) {
         let message = refusal(gpu, &Hard::default(), Options::from(SIZE).views(114));
         says(&message, &["114 views", "16384", "at most 113 views"]);
         let mut made = ShadowMap::new(&gpu.device, &Hard::default(), Options::from(SIZE).views(113)).unwrap();
-        made.prepare(&gpu.queue, &[common::view(SIZE); 113]).unwrap();
+        made.prepare(&gpu.queue, &[ask::view(SIZE); 113]).unwrap();
     });
 }
 
@@ -192,7 +190,7 @@ fn depth_formats_are_taken(gpu: &Gpu) {
         let depth = texture(gpu, |d| d.format = format);
         for technique in [&Pcf::default() as &dyn Technique, &Esm::default()] {
             let mut shadows = ShadowMap::from_depth(&gpu.device, technique, &depth, SIZE).unwrap();
-            shadows.prepare(&gpu.queue, &[common::view(SIZE)]).unwrap();
+            shadows.prepare(&gpu.queue, &[ask::view(SIZE)]).unwrap();
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
             shadows.encode_filter(&mut encoder, &mut NoProbe);
             gpu.queue.submit([encoder.finish()]);
@@ -247,7 +245,7 @@ fn triangles(gpu: &Gpu) {
 
 fn too_many_views(gpu: &Gpu) {
     let mut shadows = ShadowMap::new(&gpu.device, &Esm::default(), Options::from(SIZE).views(2)).unwrap();
-    let view = common::view(SIZE);
+    let view = ask::view(SIZE);
     let error = shadows.prepare(&gpu.queue, &[view; 3]).unwrap_err();
     says(&error.to_string(), &["3 views", "2", "Options::views"]);
     // None, and fewer than there is room for, are fine.
@@ -269,7 +267,7 @@ fn least_devices(_: &Gpu) {
         for technique in technique::all() {
             let options = Options::from(SIZE).views(2).pipelines(&pipelines);
             let mut shadows = ShadowMap::new(&gpu.device, technique.as_ref(), options).unwrap();
-            shadows.prepare(&gpu.queue, &[common::view(SIZE); 2]).unwrap();
+            shadows.prepare(&gpu.queue, &[ask::view(SIZE); 2]).unwrap();
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
             shadows.encode(&mut encoder, |_| ()).unwrap();
             gpu.queue.submit([encoder.finish()]);

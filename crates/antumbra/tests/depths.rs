@@ -2,14 +2,12 @@
 
 #![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
 
-mod common;
-
 use antumbra::{
     CasterError, Depth, NoProbe, PrepareError, ShadowMap, Size, Technique, Unsupported, View, technique,
     technique::CasterStorage,
 };
+use antumbra_testing::ask::{Random, Receiver, depth_layers, view, visibility};
 use antumbra_testing::{Gpu, Trials, broken::Broken};
-use common::{Random, Receiver, depth_layers, view, visibility};
 use glam::{Mat4, Vec4};
 
 const SIZE: Size = Size::square(32);

@@ -2,13 +2,11 @@
 
 #![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
 
-mod common;
-
 use antumbra::{
     Capabilities, CasterPass, DEPTH_FORMAT, Options, ShadowMap, Size, Technique, Unsupported, technique,
     technique::CasterStorage,
 };
-use antumbra_testing::{Gpu, Trials, broken::Broken};
+use antumbra_testing::{Gpu, Trials, ask, broken::Broken};
 use glam::Vec3;
 
 const SIZE: Size = Size::square(16);
@@ -58,10 +56,10 @@ fn own_pipeline(gpu: &Gpu) -> wgpu::RenderPipeline {
 /// Casters of the other kind than the technique keeps; none at all are fine.
 fn casters(gpu: &Gpu) {
     let own = own_pipeline(gpu);
-    let mesh = common::caster_mesh(gpu, &[Vec3::ZERO, Vec3::X, Vec3::Y]);
+    let mesh = ask::caster_mesh(gpu, &[Vec3::ZERO, Vec3::X, Vec3::Y]);
     for technique in technique::all() {
         let mut shadows = ShadowMap::new(&gpu.device, technique.as_ref(), SIZE).unwrap();
-        shadows.prepare(&gpu.queue, &[common::view(SIZE)]).unwrap();
+        shadows.prepare(&gpu.queue, &[ask::view(SIZE)]).unwrap();
         // Encoders that are never finished: wgpu itself refuses some of these pipelines then.
         let encoded = |draw: &dyn Fn(&mut CasterPass<'_>)| {
             shadows.encode(&mut gpu.device.create_command_encoder(&Default::default()), draw)

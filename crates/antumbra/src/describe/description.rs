@@ -63,6 +63,12 @@ pub struct Description {
     /// Largest error that ringing and quantisation leave where the shadow test is clear-cut: the
     /// visibility deep behind a full blocker is at most this, in the open at least one minus this.
     pub ringing: f32,
+    /// How far behind a blocker that fills the kernel its shadow may not be complete yet, nor light in front of
+    /// it, as a share of the depth range: where the shadow test is clear-cut begins there.
+    pub ramp: f32,
+    /// Largest change of the visibility where what is stored and filtered changes by the last bits of 32-bit
+    /// floats, as between filters that sum in another order. Where variances are small, moments magnify it.
+    pub rounding: f32,
     /// Whether the visibility never rises with the receiver's depth, up to ringing. It may where a technique
     /// chooses between several ways to answer by depth.
     pub monotonic: bool,
@@ -96,6 +102,8 @@ impl Description {
             filter_radius_texels: 0.5,
             classes: &[],
             ringing: 0.0,
+            ramp: 0.0,
+            rounding: 1e-4,
             monotonic: true,
             fetches: 1,
             notes: Vec::new(),

@@ -53,6 +53,7 @@ fn same_but_for_numbers(new: &Description, old: &Description) -> bool {
         bias: old.bias,
         depth_quantum: old.depth_quantum,
         ringing: old.ringing,
+        ramp: old.ramp,
         notes: old.notes.clone(),
         ..new.clone()
     };

@@ -212,6 +212,8 @@ impl Technique for Csm {
         described.uniforms =
             vec![("span", self.span()), ("offset", self.lift_offset()), ("scale", self.scale())];
         described.ringing = self.ringing();
+        // Lifted by its own half ramp, the series is at one end of the ramp where both depths are equal.
+        described.ramp = 2.0 * self.lift_offset() / self.span();
         described.fetches *= self.layers();
         Ok(described)
     }

@@ -228,6 +228,8 @@ impl Technique for Esm {
         described.constants.push(Constant::Count("esm_logarithms", u32::from(self.is_logarithmic())));
         described.uniforms =
             vec![("c", self.steepness()), ("epsilon", self.epsilon), ("offset", self.offset)];
+        // Where a thousandth of the light is left.
+        described.ramp = 7.0 / self.steepness();
         if self.classifier != Classifier::None {
             described.classes = &FAILED;
             // Pixels that fail are answered in another way.
@@ -243,6 +245,10 @@ impl Technique for Esm {
             described.widths = vec![("kernel", self.filter.width())];
             // Where no pixel fails: custom filtering takes four more.
             described.fetches += 4;
+            if !self.filters_four() {
+                // Pixels are lit beside deeper casters, whatever the depth.
+                described.ramp = 1.0;
+            }
         }
         Ok(described)
     }

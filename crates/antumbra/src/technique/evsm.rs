@@ -217,6 +217,8 @@ impl Technique for Evsm {
             ("slope", self.slope),
             ("reduction", self.reduction),
         ];
+        // Moments are rounded by 6e-8, which a variance near its floor of 1e-6 magnifies.
+        described.rounding = 1e-3;
         // What the least variance lets through a tenth of the depth range behind a blocker.
         let least = (4.0 * positive * positive * self.least_variance).max(rounding);
         let behind = (0.2 * positive).exp() - 1.0;

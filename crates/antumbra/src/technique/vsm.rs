@@ -134,6 +134,8 @@ impl Technique for Vsm {
             ("reduction", self.reduction),
             ("slope", self.slope),
         ];
+        // Moments are rounded by 6e-8, which a variance near its floor of 1e-6 magnifies.
+        described.rounding = 1e-3;
         // What the least variance lets through a tenth of the depth range behind a blocker.
         let least = least_variance.max(rounding);
         described.ringing = (least / (least + 0.01) - self.reduction).max(0.0) / (1.0 - self.reduction);

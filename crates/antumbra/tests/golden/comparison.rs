@@ -1,11 +1,11 @@
 //! Claims of techniques that compare depth.
 
-use crate::{
-    common::{Receiver, depth_layers, depth_texture, shadow_map, visibility},
-    scene::*,
-};
+use crate::scene::*;
 use antumbra::{Capabilities, Options, Size, technique, technique::Bias};
-use antumbra_testing::Gpu;
+use antumbra_testing::{
+    Gpu,
+    ask::{Receiver, depth_layers, depth_texture, shadow_map, visibility},
+};
 use glam::Vec2;
 
 pub(crate) fn hard_has_two_levels(gpu: &Gpu) {

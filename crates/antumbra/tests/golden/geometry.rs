@@ -1,8 +1,8 @@
 //! Claims of techniques that keep triangles.
 
-use crate::{common::Receiver, scene::*};
+use crate::scene::*;
 use antumbra::{Capacity, Options, Size};
-use antumbra_testing::Gpu;
+use antumbra_testing::{Gpu, ask::Receiver};
 use glam::{Vec2, Vec3};
 
 /// A slanted triangle and one of about a texel beside it.

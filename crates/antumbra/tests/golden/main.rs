@@ -7,8 +7,6 @@
 #![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
 
 mod basis;
-#[path = "../common/mod.rs"]
-mod common;
 mod comparison;
 mod geometry;
 mod scene;

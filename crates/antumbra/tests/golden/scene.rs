@@ -1,11 +1,11 @@
 //! The scene, and its picture by a technique.
 
-use crate::common::{self, Receiver, depth_layers, shadow_map, visibility};
 use antumbra::{
     Capabilities, Options, ShadowMap, Size, Technique, technique,
     technique::{Bias, CasterStorage},
 };
 use antumbra_testing::Gpu;
+use antumbra_testing::ask::{self, Receiver, depth_layers, shadow_map, visibility};
 use glam::{Vec2, Vec3};
 
 pub(crate) const SIZE: Size = Size::square(64);
@@ -90,8 +90,8 @@ pub(crate) fn behind(
     receivers: &[Receiver],
 ) -> Vec<f32> {
     let technique = technique::parse(spec).unwrap();
-    let mesh = common::caster_mesh(gpu, casters);
-    let view = common::view(options.size);
+    let mesh = ask::caster_mesh(gpu, casters);
+    let view = ask::view(options.size);
     let mut shadows = ShadowMap::new(&gpu.device, technique.as_ref(), options).unwrap();
     shadows.prepare(&gpu.queue, &[view]).unwrap();
     let mut encoder = gpu.device.create_command_encoder(&Default::default());

@@ -1,11 +1,11 @@
 //! The geometry family: packing, quantisers, intersections, tangents, and what is rasterised.
 
 use super::{INPUTS, Row, compare, compare_from, row, rows, run};
-use crate::common::{Random, caster_mesh, view};
 use antumbra::{
     Fit, Light, Options, Rgsm, ShadowMap, Size, Spsm, Technique, View, technique::rgsm, technique::spsm,
 };
 use antumbra_testing::Gpu;
+use antumbra_testing::ask::{Random, caster_mesh, view};
 use glam::{DVec2, Vec2, Vec3};
 
 /// A shadow map that nothing was drawn to, for its functions.

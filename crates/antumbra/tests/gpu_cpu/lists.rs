@@ -1,11 +1,11 @@
 //! Lists of all triangles: what is counted, given room and entered; intersection.
 
 use super::{INPUTS, Row, geometry::overlaps, row, rows, run};
-use crate::common::{Random, caster_mesh, compute, view};
 use antumbra::{
     Capacity, CasterPass, Exact, Lifetime, Options, ShadowMap, Size, Technique, View, technique::exact,
 };
 use antumbra_testing::Gpu;
+use antumbra_testing::ask::{Random, caster_mesh, compute, view};
 use glam::{DVec2, Mat4, Vec2, Vec3};
 use std::collections::BTreeSet;
 

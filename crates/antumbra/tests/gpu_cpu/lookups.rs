@@ -1,9 +1,9 @@
 //! Ways of reading a filtered map.
 
 use super::{INPUTS, Row, bilinear, clamped, compare, noise, row, rows, run, sampler_error, shadows};
-use crate::common::{depth_texture, shadow_map, texels};
 use antumbra::{Size, technique, technique::esm};
 use antumbra_testing::Gpu;
+use antumbra_testing::ask::{depth_texture, shadow_map, texels};
 
 /// f64 image pyramid of channel 0 of a map.
 fn pyramid(gpu: &Gpu, texture: &wgpu::Texture) -> Vec<Vec<f64>> {

@@ -5,8 +5,6 @@
 #![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
 
 mod basis;
-#[path = "../common/mod.rs"]
-mod common;
 mod comparison;
 mod geometry;
 mod lists;
@@ -18,8 +16,8 @@ mod split;
 mod stored;
 
 use antumbra::{Capabilities, Size, Technique, technique, technique::Encode};
+use antumbra_testing::ask::{Random, compute, depth_texture, shadow_map};
 use antumbra_testing::{Gpu, Trials};
-use common::{Random, compute, depth_texture, shadow_map};
 
 const SIZE: Size = Size::square(64);
 const ROWS: usize = 4096;

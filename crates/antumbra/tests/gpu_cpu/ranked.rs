@@ -4,9 +4,9 @@ use super::{
     lists::{ALL, MAP, TEXELS, TRIANGLES, drawn, on_map, overlapping, soup, views},
     row, rows, run,
 };
-use crate::common::{Random, caster_mesh, compute};
 use antumbra::{Capacity, Dpm, Fit, Light, Options, ShadowMap, Size};
 use antumbra_testing::Gpu;
+use antumbra_testing::ask::{Random, caster_mesh, compute};
 use glam::{DVec2, Mat4, Vec3};
 use std::collections::BTreeSet;
 

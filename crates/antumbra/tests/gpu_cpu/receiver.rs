@@ -1,9 +1,9 @@
 //! Depth, projection and gradients of receivers.
 
 use super::{INPUTS, Row, SIZE, compare, compare_from, row, rows, run, shadows};
-use crate::common::{Random, Receiver, caster_mesh, visibility};
 use antumbra::{Capacity, Light, Options, ShadowMap, Size, technique};
 use antumbra_testing::Gpu;
+use antumbra_testing::ask::{Random, Receiver, caster_mesh, visibility};
 use glam::{DMat4, DVec3, Mat4, Vec3};
 
 /// A depth z is rounded by 6e-8, which the curve of a perspective depth magnifies by 1/(1 − (1 − r)z).

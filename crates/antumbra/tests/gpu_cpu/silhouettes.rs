@@ -1,10 +1,10 @@
 //! What sub-pixel shadow maps answer near the border of a shadow, against the border itself.
 
-use crate::common::{Random, Receiver, caster_mesh, view, visibility};
 use antumbra::{
     CasterMesh, CasterPass, CutoutCaster, ShadowMap, Size, Technique,
     technique::{self, CasterStorage, Coverage},
 };
+use antumbra_testing::ask::{Random, Receiver, caster_mesh, view, visibility};
 use antumbra_testing::{Gpu, broken::Broken};
 use glam::{Vec2, Vec3};
 

@@ -1,9 +1,9 @@
 //! Arrays and meshes that are larger than a binding answer what they answer in one piece.
 
 use super::lists::{MAP, TRIANGLES, soup};
-use crate::common::{Random, Receiver, caster_buffers, view, visibility};
 use antumbra::{Capacity, CasterMesh, MeshError, MeshPart, Options, ShadowMap, technique};
 use antumbra_testing::Gpu;
+use antumbra_testing::ask::{Random, Receiver, caster_buffers, view, visibility};
 use glam::{Mat4, Vec2, Vec3};
 
 /// Bytes of a binding: less than the counts, keys or corners of a map, or the positions of its mesh.

@@ -1,14 +1,15 @@
 //! Comparison techniques that store depth in their own way: packed, stratified, rounded.
 
 use super::{
-    INPUTS, Row, SIZE, clamped,
-    common::{depth_layers, shadow_map},
-    compare,
+    INPUTS, Row, SIZE, clamped, compare,
     comparison::{Comparisons, Sum, ask, holds, strays, tilted_receivers},
     noise, row, rows, run, shadows,
 };
 use antumbra::{Capabilities, Precision, Technique, technique};
-use antumbra_testing::Gpu;
+use antumbra_testing::{
+    Gpu,
+    ask::{depth_layers, shadow_map},
+};
 
 /// Four neighbours each, exactly.
 pub(crate) fn packed_encodes(gpu: &Gpu) {

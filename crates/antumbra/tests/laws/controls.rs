@@ -1,8 +1,14 @@
 //! What laws must reject: techniques that are broken on purpose.
 
-use crate::{Law, answers::*, filters::*};
 use antumbra::Description;
-use antumbra_testing::broken::Broken;
+use antumbra_testing::{
+    broken::Broken,
+    laws::{
+        Law, darkens_with_depth, fallbacks_agree, filtering_keeps_the_mean, is_dark_behind_a_blocker,
+        is_lit_without_casters, shrinks_to_the_hard_shadow, stays_within_zero_and_one, views_do_not_matter,
+        widths_in_the_world_are_texels_of_the_view,
+    },
+};
 
 type Control = (&'static str, Law, Broken);
 

@@ -1,10 +1,10 @@
 //! Shadow maps over depth textures, whatever casters leave.
 
 use super::{depth::repeat_layers, floats, kept, view};
+use crate::Gpu;
 use antumbra::{
     Capabilities, CasterMesh, NoProbe, Options, ShadowMap, Size, Technique, View, technique::CasterStorage,
 };
-use antumbra_testing::Gpu;
 use glam::{Mat4, Vec3};
 
 /// A filtered shadow map over that depth.

@@ -1,14 +1,14 @@
 //! Laws of what filters make of maps, and how receivers read them.
 
+use super::cases::{SIZE, all_of, blocks, described, receivers, try_set};
 use crate::{
-    cases::{SIZE, all_of, blocks, described, receivers, setting, try_set},
-    common::{self, Receiver, depth_texture, shadow_map, texels, visibility},
+    Gpu,
+    ask::{self, Receiver, depth_texture, shadow_map, texels, visibility},
 };
 use antumbra::{
     Technique,
     technique::{Access, Combine, Pass},
 };
-use antumbra_testing::Gpu;
 use glam::Vec2;
 
 /// How far a mean may move, absolutely and relatively: few bits round at every step, but by far less
@@ -25,7 +25,10 @@ fn rounding(format: wgpu::TextureFormat) -> (f64, f64) {
 
 /// Blur with a constant border, and every mip level, keep the mean of what is stored, or of the powers
 /// whose logarithms are. Summed-area tables and greatest values have no mean to keep.
-pub(crate) fn filtering_keeps_the_mean(gpu: &Gpu, technique: &dyn Technique) -> Result<(), String> {
+///
+/// # Errors
+/// Where not: a visibility or what else is wrong.
+pub fn filtering_keeps_the_mean(gpu: &Gpu, technique: &dyn Technique) -> Result<(), String> {
     let inner = blocks(7, 1);
     let border = |x: u32| !(16..48).contains(&x);
     let depth = depth_texture(gpu, SIZE, |x, y| if border(x) || border(y) { 0.5 } else { inner(x, y) });
@@ -73,9 +76,11 @@ pub(crate) fn filtering_keeps_the_mean(gpu: &Gpu, technique: &dyn Technique) -> 
 }
 
 /// Interpolation in the shader gives what the sampler gives, and is told.
-pub(crate) fn fallbacks_agree(gpu: &Gpu, technique: &dyn Technique) -> Result<(), String> {
-    let lesser =
-        antumbra_testing::gpu_without(wgpu::Features::FLOAT32_FILTERABLE).ok_or("no second device")?;
+///
+/// # Errors
+/// Where not: a visibility or what else is wrong.
+pub fn fallbacks_agree(gpu: &Gpu, technique: &dyn Technique) -> Result<(), String> {
+    let lesser = crate::gpu_without(wgpu::Features::FLOAT32_FILTERABLE).ok_or("no second device")?;
     let receivers = receivers(10, 4096);
     let ask = |gpu: &Gpu| {
         let shadows = shadow_map(gpu, technique, &depth_texture(gpu, SIZE, blocks(11, 3)), SIZE.into());
@@ -83,16 +88,8 @@ pub(crate) fn fallbacks_agree(gpu: &Gpu, technique: &dyn Technique) -> Result<()
     };
     let (expected, _) = ask(gpu);
     let (found, explained) = lesser.checked(ask);
-    // Moments are rounded by 6e-8, which a variance near its floor of 1e-6 magnifies, and a moment
-    // bias of 3e-6 too; GPUs interpolate with 8-bit weights besides.
-    let whole = described(gpu, technique);
-    let has = |name| setting(&whole, name).is_some();
-    let tolerance = match gpu.is_software() {
-        true if has("moment_bias") => 5e-3,
-        true if has("least_variance") => 1e-3,
-        true => 1e-4,
-        false => 2e-2,
-    };
+    // GPUs interpolate with 8-bit weights.
+    let tolerance = if gpu.is_software() { described(gpu, technique).rounding } else { 2e-2 };
     let differ = expected.iter().zip(&found).filter(|(e, f)| (**e - **f).abs() > tolerance).count();
     // A texel or a level that weighs less than half a 256th weighs nothing, though it may hold a power of e
     // that outweighs all others.
@@ -111,7 +108,10 @@ pub(crate) fn fallbacks_agree(gpu: &Gpu, technique: &dyn Technique) -> Result<()
 }
 
 /// A width in the world that is so many texels of the view is as good as so many texels.
-pub(crate) fn widths_in_the_world_are_texels_of_the_view(
+///
+/// # Errors
+/// Where not: a visibility or what else is wrong.
+pub fn widths_in_the_world_are_texels_of_the_view(
     gpu: &Gpu,
     technique: &dyn Technique,
 ) -> Result<(), String> {
@@ -130,14 +130,12 @@ pub(crate) fn widths_in_the_world_are_texels_of_the_view(
     let ask = |kernel: &str, texels: f32| {
         let mut technique = technique.clone_box();
         try_set(technique.as_mut(), "kernel", kernel);
-        try_set(technique.as_mut(), "width", &(texels * common::view(SIZE).texel_world).to_string());
+        try_set(technique.as_mut(), "width", &(texels * ask::view(SIZE).texel_world).to_string());
         visibility(gpu, &shadow_map(gpu, technique.as_ref(), &depth, SIZE.into()), &receivers)
     };
     let (fixed, adapted) = (ask("5", 0.0), ask("9", 5.0));
-    // Sums in another order; moments magnify their last bits.
-    let described = described(gpu, technique);
-    let has = |name| setting(&described, name).is_some();
-    let tolerance = if has("least_variance") || has("moment_bias") { 5e-3 } else { 1e-4 };
+    // Sums in another order.
+    let tolerance = described(gpu, technique).rounding;
     all_of(receivers.iter().zip(fixed.iter().zip(adapted).map(|(f, a)| f - a)), |_, difference| {
         difference.abs() <= tolerance
     })

@@ -1,38 +1,35 @@
 //! What laws are tried on: maps, receivers, and what techniques say of themselves.
 
-use crate::common::{Random, Receiver};
+use crate::{
+    Gpu,
+    ask::{Random, Receiver},
+};
 use antumbra::{Capabilities, Description, Size, Technique, technique};
-use antumbra_testing::Gpu;
 use glam::Vec2;
 
-pub(crate) const SIZE: Size = Size::square(64);
+pub(super) const SIZE: Size = Size::square(64);
 
 /// What a technique says of itself on a device.
-pub(crate) fn described(gpu: &Gpu, technique: &dyn Technique) -> Description {
+pub(super) fn described(gpu: &Gpu, technique: &dyn Technique) -> Description {
     technique.describe(&Capabilities::of(&gpu.device)).unwrap()
 }
 
-/// The value of a uniform, if there is one of that name.
-pub(crate) fn setting(described: &Description, name: &str) -> Option<f32> {
-    described.uniforms.iter().find(|(n, _)| *n == name).map(|(_, value)| *value)
-}
-
 /// Sets a parameter where there is one.
-pub(crate) fn try_set(technique: &mut dyn Technique, name: &str, value: &str) {
+pub(super) fn try_set(technique: &mut dyn Technique, name: &str, value: &str) {
     if technique.parameters().iter().any(|p| p.name == name) {
         technique::set(technique, name, value).unwrap();
     }
 }
 
 /// What blocks of random depth a map is made of: flat within, so that no texel is a slope.
-pub(crate) fn blocks(seed: u64, side: u32) -> impl Fn(u32, u32) -> f32 {
+pub(super) fn blocks(seed: u64, side: u32) -> impl Fn(u32, u32) -> f32 {
     let mut random = Random::new(seed);
     let count = SIZE.width.div_ceil(side);
     let depths: Vec<f32> = (0..count * count).map(|_| random.unit()).collect();
     move |x, y| depths[(y / side * count + x / side) as usize]
 }
 
-pub(crate) fn receivers(seed: u64, count: usize) -> Vec<Receiver> {
+pub(super) fn receivers(seed: u64, count: usize) -> Vec<Receiver> {
     let mut random = Random::new(seed);
     (0..count)
         .map(|_| {
@@ -42,7 +39,7 @@ pub(crate) fn receivers(seed: u64, count: usize) -> Vec<Receiver> {
         .collect()
 }
 
-pub(crate) fn all_of<'a>(
+pub(super) fn all_of<'a>(
     results: impl Iterator<Item = (&'a Receiver, f32)>,
     good: impl Fn(&Receiver, f32) -> bool,
 ) -> Result<(), String> {

@@ -1,6 +1,6 @@
 //! Texels as numbers.
 
-use antumbra_testing::Gpu;
+use crate::Gpu;
 
 /// Bytes of floats.
 pub fn bytes_of(values: &[f32]) -> &[u8] {

@@ -1,24 +1,24 @@
-//! A shadow map over any depth image, asked for its visibility at any point: light space is world
+//! Shadow maps over any depth image, asked for their visibility at any point: light space is world
 //! space, with x and y in [−1,1] (y up) and depth z in [0,1].
 
-#![allow(dead_code, unreachable_pub, unused_imports, reason = "each test program uses a part")]
+#![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
 
+use crate::Gpu;
 use antumbra::{Pipelines, Size, View};
-use antumbra_testing::Gpu;
 use glam::{Mat4, Vec2, Vec3, Vec4};
 use std::{
     collections::HashMap,
     sync::{Arc, Mutex, OnceLock},
 };
 
-mod ask;
 mod depth;
 mod maps;
+mod question;
 mod read;
 
-pub use ask::{compute, visibility};
 pub use depth::{depth_layers, depth_texture};
 pub use maps::{caster_buffers, caster_mesh, shadow_map, shadow_map_of};
+pub use question::{compute, visibility};
 pub use read::{bytes_of, floats, texels};
 
 /// A point to be asked about.
@@ -69,7 +69,7 @@ fn kept(gpu: &Gpu) -> Kept {
         depth: depth::pipeline(gpu),
         compute: Arc::default(),
     };
-    let shared = antumbra_testing::gpu().is_some_and(|shared| std::ptr::eq(shared, gpu));
+    let shared = crate::gpu().is_some_and(|shared| std::ptr::eq(shared, gpu));
     if shared { SHARED.get_or_init(make).clone() } else { make() }
 }
 

@@ -1,8 +1,8 @@
 //! Depth textures of any content.
 
 use super::{bytes_of, kept};
+use crate::Gpu;
 use antumbra::Size;
-use antumbra_testing::Gpu;
 
 /// A depth texture with `depth(x, y)` in texel (x, y), y down.
 pub fn depth_texture(gpu: &Gpu, size: Size, depth: impl Fn(u32, u32) -> f32) -> wgpu::Texture {

@@ -1,15 +1,18 @@
 //! Laws of what `shadow_visibility` answers.
 
+use super::cases::{SIZE, all_of, blocks, described, receivers, try_set};
 use crate::{
-    cases::{SIZE, all_of, blocks, described, receivers, setting, try_set},
-    common::{self, Random, Receiver, depth_layers, depth_texture, shadow_map, shadow_map_of, visibility},
+    Gpu,
+    ask::{self, Random, Receiver, depth_layers, depth_texture, shadow_map, shadow_map_of, visibility},
 };
 use antumbra::{Capacity, Options, Technique, View, technique::CasterStorage};
-use antumbra_testing::Gpu;
 use glam::{Mat4, Vec3};
 
-/// Not by a rounding beyond: weights that sum to one in f32 may.
-pub(crate) fn stays_within_zero_and_one(gpu: &Gpu, technique: &dyn Technique) -> Result<(), String> {
+/// Visibility is 0 to 1, and not by a rounding beyond: weights that sum to one in f32 may.
+///
+/// # Errors
+/// Where not: a visibility or what else is wrong.
+pub fn stays_within_zero_and_one(gpu: &Gpu, technique: &dyn Technique) -> Result<(), String> {
     for side in [1, 5] {
         let shadows = shadow_map(gpu, technique, &depth_texture(gpu, SIZE, blocks(1, side)), SIZE.into());
         let receivers = receivers(2, 4096);
@@ -19,19 +22,30 @@ pub(crate) fn stays_within_zero_and_one(gpu: &Gpu, technique: &dyn Technique) ->
     Ok(())
 }
 
-/// Up to the far plane itself, where the receiver touches what an empty texel stores.
-pub(crate) fn is_lit_without_casters(gpu: &Gpu, technique: &dyn Technique) -> Result<(), String> {
+/// Receivers without casters are lit, up to the far plane itself, where they touch what an empty texel stores.
+///
+/// # Errors
+/// Where not: a visibility or what else is wrong.
+pub fn is_lit_without_casters(gpu: &Gpu, technique: &dyn Technique) -> Result<(), String> {
     let shadows = shadow_map(gpu, technique, &depth_texture(gpu, SIZE, |_, _| 1.0), SIZE.into());
     let receivers: Vec<_> = (0..=256).map(|i| Receiver::point(0.3, 0.6, i as f32 / 256.0)).collect();
     let least = 0.999 - described(gpu, technique).ringing;
     all_of(receivers.iter().zip(visibility(gpu, &shadows, &receivers)), |_, v| v >= least)
 }
 
-pub(crate) fn is_dark_behind_a_blocker(gpu: &Gpu, technique: &dyn Technique) -> Result<(), String> {
+/// Receivers well behind a blocker that fills the map are dark.
+///
+/// # Errors
+/// Where not: a visibility or what else is wrong.
+pub fn is_dark_behind_a_blocker(gpu: &Gpu, technique: &dyn Technique) -> Result<(), String> {
     is_dark_within(gpu, technique, Capacity::default())
 }
 
-pub(crate) fn is_dark_within(gpu: &Gpu, technique: &dyn Technique, capacity: Capacity) -> Result<(), String> {
+/// The same in a map of such capacity.
+///
+/// # Errors
+/// Where not: a visibility or what else is wrong.
+pub fn is_dark_within(gpu: &Gpu, technique: &dyn Technique, capacity: Capacity) -> Result<(), String> {
     let options = Options::from(SIZE).capacity(capacity);
     let shadows = shadow_map(gpu, technique, &depth_texture(gpu, SIZE, |_, _| 0.2), options);
     let receivers: Vec<_> =
@@ -40,8 +54,12 @@ pub(crate) fn is_dark_within(gpu: &Gpu, technique: &dyn Technique, capacity: Cap
     all_of(receivers.iter().zip(visibility(gpu, &shadows, &receivers)), |_, v| v <= most)
 }
 
-/// Ripples may rise by their whole height once, up to rounding.
-pub(crate) fn darkens_with_depth(gpu: &Gpu, technique: &dyn Technique) -> Result<(), String> {
+/// Visibility falls with the receiver's depth where techniques say so; ripples may rise by their whole height
+/// once, up to rounding.
+///
+/// # Errors
+/// Where not: a visibility or what else is wrong.
+pub fn darkens_with_depth(gpu: &Gpu, technique: &dyn Technique) -> Result<(), String> {
     const STEPS: usize = 64;
     let described = described(gpu, technique);
     if !described.monotonic {
@@ -69,9 +87,12 @@ pub(crate) fn darkens_with_depth(gpu: &Gpu, technique: &dyn Technique) -> Result
     Ok(())
 }
 
-/// Without blur and interpolation, at texel centres, out of the approximation's own ramp. A kernel that
-/// cannot be narrowed sees one depth where it lies within one block.
-pub(crate) fn shrinks_to_the_hard_shadow(gpu: &Gpu, technique: &dyn Technique) -> Result<(), String> {
+/// Without blur and interpolation, at texel centres, out of the approximation's own ramp, visibility is that of
+/// the hard shadow. A kernel that cannot be narrowed sees one depth where it lies within one block.
+///
+/// # Errors
+/// Where not: a visibility or what else is wrong.
+pub fn shrinks_to_the_hard_shadow(gpu: &Gpu, technique: &dyn Technique) -> Result<(), String> {
     const BLOCK: u32 = 8;
     let mut narrow = technique.clone_box();
     let least = narrow.parameters().iter().find(|p| p.name == "kernel").map(|p| match &p.field {
@@ -90,10 +111,8 @@ pub(crate) fn shrinks_to_the_hard_shadow(gpu: &Gpu, technique: &dyn Technique) -
     let map = blocks(5, BLOCK);
     let inner = |x: u32| (margin..BLOCK - margin).contains(&(x % BLOCK));
     let shadows = shadow_map(gpu, narrow.as_ref(), &depth_texture(gpu, SIZE, &map), SIZE.into());
-    // A series lifted by its own half ramp is at one end of the ramp where d = z.
-    let of_narrow = described(gpu, narrow.as_ref());
-    let set = |name| setting(&of_narrow, name).unwrap_or(0.0);
-    let ramp = (2.0 * set("offset") / set("span").max(0.5)).max(0.1);
+    // Bias takes some depth, too.
+    let ramp = described(gpu, narrow.as_ref()).ramp.max(0.1);
     let mut random = Random::new(6);
     let mut receivers = Vec::new();
     let mut expected = Vec::new();
@@ -106,7 +125,7 @@ pub(crate) fn shrinks_to_the_hard_shadow(gpu: &Gpu, technique: &dyn Technique) -
     }
     // A series of one term is all ramp: nothing to compare.
     if receivers.is_empty() {
-        return Ok(());
+        return if ramp > 0.5 { Ok(()) } else { Err(format!("no receiver is out of a ramp of {ramp}")) };
     }
     let tolerance = described(gpu, technique).ringing + 1e-3;
     let results = visibility(gpu, &shadows, &receivers);
@@ -118,16 +137,19 @@ pub(crate) fn shrinks_to_the_hard_shadow(gpu: &Gpu, technique: &dyn Technique) -
     Ok(())
 }
 
-/// The same depth in the second layer of a two-view map, behind a first view that looks elsewhere:
-/// beside the receivers, or only beyond them, so that they are in front of its near plane.
-pub(crate) fn views_do_not_matter(gpu: &Gpu, technique: &dyn Technique) -> Result<(), String> {
+/// The same depth gives the same visibility in the second layer of a two-view map, behind a first view that looks
+/// elsewhere: beside the receivers, or only beyond them, so that they are in front of its near plane.
+///
+/// # Errors
+/// Where not: a visibility or what else is wrong.
+pub fn views_do_not_matter(gpu: &Gpu, technique: &dyn Technique) -> Result<(), String> {
     let map = blocks(8, 4);
     let alone = shadow_map(gpu, technique, &depth_texture(gpu, SIZE, &map), SIZE.into());
     let depth =
         depth_layers(gpu, SIZE, 2, |layer, x, y| if layer == 1 { map(x, y) } else { 1.0 - map(x, y) });
     let receivers = receivers(9, 1024);
     let expected = visibility(gpu, &alone, &receivers);
-    let here = common::view(SIZE);
+    let here = ask::view(SIZE);
     for shift in [Vec3::new(3.0, 0.0, 0.0), Vec3::new(0.0, 0.0, -2.0)] {
         let elsewhere = View {
             clip_from_world: Mat4::from_translation(shift),

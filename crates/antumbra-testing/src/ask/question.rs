@@ -1,8 +1,8 @@
 //! Questions to `shadow_visibility`, and to all that comes with it.
 
 use super::{Receiver, bytes_of, floats, kept};
+use crate::Gpu;
 use antumbra::ShadowMap;
-use antumbra_testing::Gpu;
 use glam::{Vec3, Vec4};
 use std::sync::PoisonError;
 
