@@ -319,10 +319,30 @@ impl<'g> Session<'g> {
         progress: &dyn Progress,
     ) -> Result<Vec<TimeResult>> {
         let unshadowed = Lookup::unshadowed(self.gpu, &self.scene);
-        let unshadowed = TimedFrame { shadows: None, lookup: &unshadowed };
-        let frames: Vec<TimedFrame<'_>> =
-            frames.iter().map(|frame| frame.map_or(unshadowed, Prepared::frame)).collect();
+        let frames = timed(frames, &unshadowed);
         let share = |share| progress.share(share);
         timing::time_interleaved(self.gpu, &self.scene, &self.lighting, &frames, rounds, &share)
     }
+
+    /// The same, with every time that was taken.
+    ///
+    /// # Errors
+    /// If the device is lost.
+    pub fn sample_frames(
+        &self,
+        frames: &[Option<&Prepared>],
+        rounds: u32,
+        progress: &dyn Progress,
+    ) -> Result<Vec<timing::Samples>> {
+        let unshadowed = Lookup::unshadowed(self.gpu, &self.scene);
+        let frames = timed(frames, &unshadowed);
+        let share = |share| progress.share(share);
+        timing::sample_interleaved(self.gpu, &self.scene, &self.lighting, &frames, rounds, &share)
+    }
+}
+
+/// What is timed of techniques, and of shading without any.
+fn timed<'a>(frames: &[Option<&'a Prepared>], unshadowed: &'a Lookup) -> Vec<TimedFrame<'a>> {
+    let unshadowed = TimedFrame { shadows: None, lookup: unshadowed };
+    frames.iter().map(|frame| frame.map_or(unshadowed, Prepared::frame)).collect()
 }

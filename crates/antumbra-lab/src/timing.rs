@@ -115,11 +115,13 @@ pub struct TimedFrame<'a> {
     pub lookup: &'a Lookup,
 }
 
-/// All samples of one frame.
+/// All times of one frame, milliseconds, a round each.
 #[derive(Debug, Default)]
-struct Samples {
-    frame: Vec<f64>,
-    passes: Vec<(&'static str, Vec<f64>)>,
+pub struct Samples {
+    /// The whole frame.
+    pub frame: Vec<f64>,
+    /// Its passes, by label; none where the device has no timestamps.
+    pub passes: Vec<(&'static str, Vec<f64>)>,
 }
 
 /// Times whole frames (cast, filter, surfaces, lookup) of all `frames` in turns. The first round
@@ -135,6 +137,22 @@ pub fn time_interleaved(
     rounds: u32,
     progress: &dyn Fn(f32),
 ) -> Result<Vec<TimeResult>> {
+    let samples = sample_interleaved(gpu, scene, lighting, frames, rounds, progress)?;
+    Ok(samples.iter().map(|s| s.result(rounds, frame_method(gpu))).collect())
+}
+
+/// The same, with every time that was taken: what was timed in one round may be set against one another.
+///
+/// # Errors
+/// If the device is lost.
+pub fn sample_interleaved(
+    gpu: &Gpu,
+    scene: &GpuScene,
+    lighting: &Lighting,
+    frames: &[TimedFrame<'_>],
+    rounds: u32,
+    progress: &dyn Fn(f32),
+) -> Result<Vec<Samples>> {
     let mut stopwatch = Stopwatch::new(gpu);
     let mut samples: Vec<Samples> = frames.iter().map(|_| Samples::default()).collect();
     for round in 0..=rounds {
@@ -152,7 +170,7 @@ pub fn time_interleaved(
         }
         progress((round + 1) as f32 / (rounds + 1) as f32);
     }
-    Ok(samples.iter().map(|s| s.result(rounds, frame_method(gpu))).collect())
+    Ok(samples)
 }
 
 /// Whether the timestamps of a device say how long a frame takes.

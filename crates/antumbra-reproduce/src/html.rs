@@ -3,7 +3,7 @@
 use crate::{
     catalogue::{SOURCES, source_of},
     page::{Block, Cell, Page, Pictures, Table, Tile, Unit},
-    results::{Judged, Record, Reproduction},
+    results::{Record, Reproduction},
     target::{Source, Target},
     verdict::{Outcome, number},
 };
@@ -14,6 +14,9 @@ use antumbra_lab::{
 use base64::{Engine, engine::general_purpose::STANDARD};
 
 mod matrix;
+mod verdicts;
+
+use verdicts::{facts, lines, list};
 
 const OWN_STYLE: &str = include_str!("html/page.css");
 const SCRIPT: &str = include_str!("html/sort.js");
@@ -29,13 +32,14 @@ pub fn page(target: &Target, page: &Page, record: &Record, results: &Reproductio
     }
     let body = format!(
         "<header><p class=\"kicker\"><a href=\"index.html\">All pages</a> · {kicker}</p><h1>{title}</h1></header>\n\
-         <main>\n<section class=\"verdicts\" aria-label=\"Verdicts\">{verdicts}</section>\n\
+         <main>\n<section class=\"verdicts\" aria-label=\"Verdicts\">{verdicts}</section>{facts}\n\
          <section class=\"pair\"><div><h3>What the source did</h3><p>{paper}</p></div>\
          <div><h3>What we ran</h3><p>{ours}</p></div></section>{note}\n\
          <section>{blocks}</section>\n</main>\n{footer}",
         kicker = escape(&format!("{source} · {}", target.id)),
         title = escape(target.title),
-        verdicts = verdicts(&record.verdicts),
+        verdicts = list(&record.verdicts),
+        facts = facts(&record.facts),
         paper = escape(target.paper),
         ours = escape(target.ours),
         footer = footer(results, &format!("antumbra reproduce {}", target.id)),
@@ -51,10 +55,16 @@ const QUICK: &str = "<p class=\"warning\">A quick run: pictures and maps have a 
 pub fn index(results: &Reproduction) -> String {
     let all = |outcome| results.targets.iter().map(|r| r.count(outcome)).sum::<usize>();
     let [holds, differs, open] = [Outcome::Holds, Outcome::Differs, Outcome::Open].map(all);
+    let others = results.targets.iter().flat_map(|r| &r.verdicts).filter(|v| !v.source.is_of_a_document());
     let mut answer = format!(
-        "<p>{} claims were tried: {holds} hold, {differs} differ{}.</p>",
+        "<p>{} claims of the documents were tried: {holds} hold, {differs} differ{}. {}</p>",
         holds + differs + open,
-        if open > 0 { format!(", {open} could not be judged") } else { String::new() }
+        if open > 0 {
+            format!(", {open} {} open", if open == 1 { "is" } else { "are" })
+        } else {
+            String::new()
+        },
+        others_say(others.count())
     );
     if results.targets.iter().any(|r| r.quick) {
         answer += QUICK;
@@ -69,6 +79,10 @@ pub fn index(results: &Reproduction) -> String {
     document("Reproduction", &body)
 }
 
+fn others_say(count: usize) -> String {
+    if count == 0 { String::new() } else { format!("{count} more claims are ours and not counted.") }
+}
+
 fn group(source: &Source, results: &Reproduction) -> String {
     let rows: String = source
         .targets
@@ -77,7 +91,7 @@ fn group(source: &Source, results: &Reproduction) -> String {
         .map(|record| {
             let lines = match record.verdicts.is_empty() {
                 true => "<td class=\"none\">numbers only</td>".into(),
-                false => format!("<td>{}</td>", verdicts(&record.verdicts)),
+                false => format!("<td>{}</td>", lines(&record.verdicts)),
             };
             format!(
                 "<tr><th scope=\"row\"><a href=\"{}\">{}</a><code>{}</code></th>{lines}</tr>\n",
@@ -125,20 +139,6 @@ fn document(title: &str, body: &str) -> String {
          <style>\n{STYLE}\n{OWN_STYLE}</style>\n</head>\n<body>\n{body}\n<script>\n{SCRIPT}</script>\n</body>\n</html>\n",
         escape(title)
     )
-}
-
-fn verdicts(verdicts: &[Judged]) -> String {
-    let item = |v: &Judged| {
-        format!(
-            "<li class=\"{class}\"><b class=\"outcome\">{word}</b><span><strong>{claim}</strong> <span class=\"quiet\">{reason}</span></span></li>",
-            class = v.outcome.name(),
-            word = v.outcome.name(),
-            claim = escape(&v.claim),
-            reason = escape(&v.reason),
-        )
-    };
-    let items: String = verdicts.iter().map(item).collect();
-    if items.is_empty() { items } else { format!("<ul class=\"verdict-list\">{items}</ul>") }
 }
 
 fn block(block: &Block) -> String {

@@ -20,7 +20,7 @@ mod csm;
 mod esm;
 mod gallery;
 pub mod html;
-mod numbers;
+pub mod numbers;
 pub mod page;
 pub mod results;
 mod run;

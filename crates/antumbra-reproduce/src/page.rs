@@ -1,7 +1,10 @@
 //! A page as data: what it says, its tables with the paper's numbers beside ours, pictures, plots and
 //! verdicts. [`crate::html`] shows it; [`crate::results`] keeps its numbers.
 
-use crate::{stored_image::StoredImage, verdict::Verdict};
+use crate::{
+    stored_image::StoredImage,
+    verdict::{Fact, Verdict},
+};
 use antumbra_lab::chart::Panel;
 use anyhow::Result;
 use serde::{Deserialize, Serialize};
@@ -13,6 +16,8 @@ pub struct Page {
     pub blocks: Vec<Block>,
     /// What became of the paper's claims.
     pub verdicts: Vec<Verdict>,
+    /// What the paper says that cannot come out otherwise.
+    pub facts: Vec<Fact>,
 }
 
 /// A part of a page.
@@ -166,6 +171,11 @@ impl Page {
     /// Adds a verdict.
     pub fn verdict(&mut self, verdict: Verdict) {
         self.verdicts.push(verdict);
+    }
+
+    /// Adds a fact.
+    pub fn fact(&mut self, fact: Fact) {
+        self.facts.push(fact);
     }
 }
 

@@ -14,7 +14,7 @@
 use crate::{
     page::{Block, Matrix, Page, Table, Unit},
     target::Target,
-    verdict::{Comparison, Outcome, Verdict},
+    verdict::{Comparison, Fact, Outcome, Ran, Saying, Verdict},
 };
 use antumbra_lab::{
     files,
@@ -25,7 +25,7 @@ use serde::{Deserialize, Serialize};
 use std::path::Path;
 
 /// Name and version of the schema.
-pub const SCHEMA: &str = "antumbra-reproduction/1";
+pub const SCHEMA: &str = "antumbra-reproduction/2";
 
 /// Everything in one folder.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -57,6 +57,8 @@ pub struct Record {
     pub seconds: f64,
     /// What became of the claims.
     pub verdicts: Vec<Judged>,
+    /// What the source says that cannot come out otherwise.
+    pub facts: Vec<Fact>,
     /// Its tables, in the page's order.
     pub tables: Vec<Table>,
     /// Its numbers to be sorted.
@@ -66,8 +68,12 @@ pub struct Record {
 /// A verdict with its outcome.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Judged {
-    /// What the paper says.
+    /// What is claimed, in our words and of our scenes.
     pub claim: String,
+    /// Whose claim it is.
+    pub source: Saying,
+    /// What ran to judge it.
+    pub ran: Option<Ran>,
     /// How it ends.
     pub outcome: Outcome,
     /// Why, in words.
@@ -80,6 +86,8 @@ impl From<&Verdict> for Judged {
     fn from(verdict: &Verdict) -> Self {
         Self {
             claim: verdict.claim.clone(),
+            source: verdict.source.clone(),
+            ran: verdict.ran.clone(),
             outcome: verdict.outcome(),
             reason: verdict.reason(),
             comparisons: verdict.comparisons.clone(),
@@ -99,6 +107,7 @@ impl Record {
             quick,
             seconds,
             verdicts: page.verdicts.iter().map(Judged::from).collect(),
+            facts: page.facts.clone(),
             tables: Vec::new(),
             matrices: Vec::new(),
         };
@@ -112,10 +121,10 @@ impl Record {
         record
     }
 
-    /// How many verdicts end so.
+    /// How many of the documents' claims end so.
     #[must_use]
     pub fn count(&self, outcome: Outcome) -> usize {
-        self.verdicts.iter().filter(|v| v.outcome == outcome).count()
+        self.verdicts.iter().filter(|v| v.outcome == outcome && v.source.is_of_a_document()).count()
     }
 }
 

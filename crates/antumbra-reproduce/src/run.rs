@@ -5,7 +5,7 @@ use crate::{
     page::Page,
     results::{Record, Reproduction, SCHEMA},
     target::Target,
-    verdict::Verdict,
+    verdict::{Verdict, ours},
     workbench::Workbench,
 };
 use antumbra::Unsupported;
@@ -70,7 +70,7 @@ pub fn run(options: &Options, observer: &dyn RunObserver) -> Result<Reproduction
         let pace = if past > 30.0 { took / past } else { 1.0 };
         observer.total(target.id, past / total, (total - past) * pace);
         let begun = Instant::now();
-        let page = measured((target.run)(&bench)).with_context(|| format!("target {}", target.id))?;
+        let page = measured(target, (target.run)(&bench)).with_context(|| format!("target {}", target.id))?;
         let record = Record::new(target, &page, &bench.build, options.quick, begun.elapsed().as_secs_f64());
         let text = html::page(target, &page, &record, &results);
         files::write_atomically(&output.join(&record.file), text.as_bytes())?;
@@ -85,13 +85,14 @@ pub fn run(options: &Options, observer: &dyn RunObserver) -> Result<Reproduction
 }
 
 /// A target's page; one that says why there is none where the device or a scene refuses what it needs.
-fn measured(page: Result<Page>) -> Result<Page> {
+fn measured(target: &Target, page: Result<Page>) -> Result<Page> {
     match page {
         Err(error) if error.is::<Refused>() || error.is::<Unsupported>() => {
             let reason = format!("{error:#}");
             let mut page = Page::default();
             page.text(format!("Nothing was measured. {reason}."));
-            page.verdict(Verdict::open("What the source says of this", format!("not measured: {reason}")));
+            let source = ours("it stands for all that the page would have judged");
+            page.verdict(Verdict::open(source, target.title, format!("not measured: {reason}")));
             Ok(page)
         }
         page => page,

@@ -4,7 +4,7 @@ use crate::{
     page::{Cell, Page, Table, Tile, Unit},
     stored_image::{busiest, difference},
     target::{Source, Target},
-    verdict::{Verdict, at_most, less, more},
+    verdict::{Fact, Ran, Verdict, less, slides},
     workbench::Workbench,
 };
 use antumbra_lab::image::GrayImage;
@@ -87,7 +87,7 @@ fn pcf_row(bench: &Workbench<'_>) -> Result<Page> {
         table.row(name, cells.map(|(v, unit)| Cell::ours(v, unit)).into());
         numbers.push((levels, rmse));
     }
-    page.verdict(quantised([numbers[0].0, numbers[1].0, numbers[2].0, numbers[3].0, numbers[4].0]));
+    page.fact(quantised([numbers[0].0, numbers[1].0, numbers[2].0, numbers[3].0, numbers[4].0]));
     page.verdict(smoother(numbers[0].1, numbers[3].1, numbers[4].1));
     // Where the standard map looks most wrong.
     let wrong = difference(&study.look("hard")?.picture, &truths[0].picture);
@@ -109,26 +109,27 @@ fn levels(plane: &GrayImage, shadowable: &[bool]) -> usize {
     values.map(|(v, _)| (1000.0 * v).round() as i32).collect::<BTreeSet<_>>().len()
 }
 
-fn quantised([hard, two, three, four, bilinear]: [usize; 5]) -> Verdict {
-    let levels = |n: usize| n as f64;
-    Verdict::new(
-        "n×n nearest-neighbour lookups give at most n² + 1 levels of shadow; bilinear ones give more",
-        [
-            at_most("levels without filtering", levels(hard), "1 + 1", 2.0),
-            at_most("levels of 2×2", levels(two), "2² + 1", 5.0),
-            at_most("levels of 3×3", levels(three), "3² + 1", 10.0),
-            at_most("levels of 4×4", levels(four), "4² + 1", 17.0),
-            more("levels of bilinear 4×4", levels(bilinear), "4² + 1", 17.0),
-        ],
-    )
+fn quantised([hard, two, three, four, bilinear]: [usize; 5]) -> Fact {
+    Fact {
+        claim: "n×n nearest-neighbour lookups give at most n² + 1 levels of shadow; bilinear ones give more."
+            .into(),
+        source: slides("PCF + bilinear lookups", "Nearest neighbour lookups → quantization artifacts"),
+        found: format!(
+            "Levels without filtering {hard}, of 2×2 {two}, 3×3 {three}, 4×4 {four}, of bilinear 4×4 {bilinear}."
+        ),
+        because: "n² comparisons have n² + 1 sums, and weights that follow the position have no such bound"
+            .into(),
+    }
 }
 
 fn smoother(hard: f64, nearest: f64, bilinear: f64) -> Verdict {
     Verdict::new(
+        slides("Percentage closer filtering", "Good quality needs big kernel size"),
         "A larger kernel comes closer to the filtered ideal, and bilinear lookups closer still",
+        Ran::new("spheres, 640×480, 512²", [ROW[0].0, ROW[3].0, ROW[4].0]),
         [
-            less("RMSE of 4×4", nearest, "that of the standard map", hard),
-            less("RMSE of bilinear 4×4", bilinear, "that of nearest 4×4", nearest),
+            less("RMSE of 4×4", nearest, "that of the standard map", hard).sentence(),
+            less("RMSE of bilinear 4×4", bilinear, "that of nearest 4×4", nearest).sentence(),
         ],
     )
 }
@@ -141,9 +142,6 @@ mod tests {
 
     #[test]
     fn verdicts_follow_their_numbers() {
-        assert_eq!(quantised([2, 5, 10, 17, 300]).outcome(), Holds);
-        assert_eq!(quantised([2, 5, 11, 17, 300]).outcome(), Differs);
-        assert_eq!(quantised([2, 5, 10, 17, 17]).outcome(), Differs);
         assert_eq!(smoother(0.3, 0.2, 0.1).outcome(), Holds);
         assert_eq!(smoother(0.3, 0.2, 0.25).outcome(), Differs);
         assert_eq!(smoother(0.3, 0.4, 0.1).outcome(), Differs);

@@ -1,12 +1,13 @@
 //! What is asked and what is answered: shots, studies of them, truths.
 
-use crate::{cache::packed, page::Tile, stored_image::StoredImage};
+use crate::{cache::packed, numbers::Measured, page::Tile, stored_image::StoredImage};
 use antumbra::{View, technique};
 use antumbra_lab::{
     classes::ClassShare,
     flicker::{self, TechniqueFlicker},
     image::GrayImage,
     results::{LeftOut, MemoryResult, Refused, Work},
+    timing::Samples,
     truth::TruthImage,
 };
 use anyhow::{Context, Result};
@@ -109,6 +110,36 @@ impl ViewFacts {
             linear_from_clip: self.linear_from_clip.map(Vec4::from_array),
             depth_world: self.depth_world,
         }
+    }
+}
+
+/// Times of one frame, milliseconds, a round each.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct Timed {
+    /// Whole frames.
+    pub frames: Vec<f64>,
+    /// Their lookup passes; none where passes cannot be timed.
+    pub lookups: Vec<f64>,
+}
+
+impl From<Samples> for Timed {
+    fn from(Samples { frame, passes }: Samples) -> Self {
+        let lookups = passes.into_iter().find(|(name, _)| *name == "lookup").map(|(_, all)| all);
+        Self { frames: frame, lookups: lookups.unwrap_or_default() }
+    }
+}
+
+impl Timed {
+    /// A frame.
+    #[must_use]
+    pub fn ms(&self) -> f64 {
+        Measured::median(&self.frames).value
+    }
+
+    /// How many frames of another it takes as long as, round by round.
+    #[must_use]
+    pub fn over(&self, other: &Self) -> Measured {
+        Measured::ratio(&self.frames, &other.frames)
     }
 }
 

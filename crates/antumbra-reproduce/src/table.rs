@@ -8,12 +8,7 @@ use crate::{
 };
 use antumbra::technique;
 use antumbra_lab::truth::Truth;
-use antumbra_lab::{
-    metrics::Score,
-    motion::Path,
-    results::{Refused, TimeResult},
-    specs,
-};
+use antumbra_lab::{metrics::Score, motion::Path, results::Refused, specs};
 use antumbra_scene::procedural;
 use anyhow::{Context, Result};
 
@@ -41,6 +36,8 @@ const SMALL: [u32; 2] = [256, 192];
 const SMALL_MAP: u32 = 512;
 /// A quick run leaves larger scenes out.
 const QUICK_TRIANGLES: usize = 5_000;
+/// Frames of each technique that are timed; no verdict rests on them.
+const ROUNDS: u32 = 3;
 
 /// What was measured of one technique on one scene.
 #[derive(Debug, Clone, Copy)]
@@ -221,11 +218,10 @@ fn scene_values(bench: &Workbench<'_>, study: &Study) -> Result<Vec<Vec<Option<f
     let specs: Vec<&str> = study.looks.iter().map(|look| look.spec.as_str()).collect();
     let truths = bench.truths(study, &[Truth::Hard, Truth::LightSpace(KERNEL), Truth::ScreenSpace(4)])?;
     let frames: Vec<(u32, &str)> = specs.iter().map(|spec| (study.map, *spec)).collect();
-    let times = bench.times(study.shot, &frames, bench.rounds(3))?;
+    let times = bench.times(study.shot, &frames, if bench.quick { 1 } else { ROUNDS })?;
     let hard = specs.iter().position(|s| *s == "hard").context("the standard shadow map is missing")?;
     let small = bench.shot(study.shot.scene, SMALL);
     let moving = bench.moving(small, Path::Both, STEPS, bench.map(SMALL_MAP), &specs)?;
-    let median = |time: &TimeResult| time.frame.median_ms;
     let mut all = Vec::new();
     for ((spec, look), time) in specs.iter().zip(&study.looks).zip(&times) {
         let mut scores = Vec::new();
@@ -237,7 +233,7 @@ fn scene_values(bench: &Workbench<'_>, study: &Study) -> Result<Vec<Vec<Option<f
             light_space: &scores[1],
             screen_space: &scores[2],
             flicker: possible(moving.technique(spec))?.and_then(|moved| moved.ratio_to_hard),
-            time: median(time) / median(&times[hard]),
+            time: time.over(&times[hard]).value,
             bytes: look.memory.kept_bytes,
         };
         all.push(QUANTITIES.iter().map(|q| (q.value)(&measured).filter(|v| v.is_finite())).collect());

@@ -21,6 +21,10 @@ mod studies;
 mod timings;
 mod truths;
 
+/// Frames of each kind that a verdict on times rests on: the fewest of which neither the fastest nor the
+/// slowest decides alone.
+const ROUNDS: u32 = 9;
+
 /// Shared services of all experiments.
 pub struct Workbench<'a> {
     gpu: Gpu,
@@ -86,10 +90,10 @@ impl<'a> Workbench<'a> {
         if self.quick { (texels / 4).max(32) } else { texels }
     }
 
-    /// Frames to time, one in a quick run.
+    /// Frames to time for a verdict: so many that the median's range is known; one in a quick run.
     #[must_use]
-    pub fn rounds(&self, frames: u32) -> u32 {
-        if self.quick { 1 } else { frames }
+    pub fn rounds(&self) -> u32 {
+        if self.quick { 1 } else { ROUNDS }
     }
 
     /// What [`curve::visibility`] answers to a caster at the depth `caster`.

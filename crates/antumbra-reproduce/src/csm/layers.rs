@@ -5,7 +5,7 @@ use crate::{
     page::{Cell, Page, Table, Unit},
     stored_image::difference,
     study::{Look, Traced},
-    verdict::{Verdict, less},
+    verdict::{Ran, Verdict, csm as csm_says, less},
     workbench::Workbench,
 };
 use antumbra_lab::image::GrayImage;
@@ -112,8 +112,15 @@ fn mean(values: &[f32], mask: &[bool]) -> Option<f64> {
 /// Mean visibility of the VSM and of the CSM where the VSM leaks.
 fn no_leaking(scene: &str, [vsm, csm]: [Option<f64>; 2]) -> Verdict {
     Verdict::new(
+        csm_says("§5", "Convolution Shadow Maps do not suffer from these artifacts and can deal with high depth complexity."),
         format!("CSM does not leak where VSM does (scene {scene})"),
-        [less("visibility of the CSM there", csm, "a tenth of the VSM's", vsm.map(|v| 0.1 * v))],
+        Ran::new(&format!("{scene}, 2048²"), SPECS),
+        [less("visibility of the CSM there", csm, "a tenth of the VSM's", vsm.map(|v| 0.1 * v))
+            .ours("the paper says none, which no sum of 16 waves is")
+            .was(
+                "less than the VSM's and at most 1 % behind layered casters",
+                "the pixels were chosen anew as those where the VSM leaks and the ramp of the CSM does not reach",
+            )],
     )
 }
 

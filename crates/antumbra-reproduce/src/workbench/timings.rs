@@ -1,12 +1,8 @@
 //! Times of frames.
 
 use super::{Workbench, parse};
-use crate::study::ShotKey;
-use antumbra_lab::{
-    prepared::Prepared,
-    results::{Refused, TimeResult},
-    session::Session,
-};
+use crate::study::{ShotKey, Timed};
+use antumbra_lab::{prepared::Prepared, results::Refused, session::Session};
 use anyhow::{Result, bail};
 use std::collections::BTreeMap;
 
@@ -14,12 +10,12 @@ use std::collections::BTreeMap;
 const NONE: &str = "none";
 
 impl Workbench<'_> {
-    /// Times `frames`, each a map's size and a spec, in turns, so that their ratios can be trusted. The spec
+    /// Times `frames`, each a map's size and a spec, in turns, so that a round's ratios can be trusted. The spec
     /// `none` shades without shadows.
     ///
     /// # Errors
     /// As [`study`](Self::study).
-    pub fn times(&self, key: ShotKey, frames: &[(u32, &str)], rounds: u32) -> Result<Vec<TimeResult>> {
+    pub fn times(&self, key: ShotKey, frames: &[(u32, &str)], rounds: u32) -> Result<Vec<Timed>> {
         if rounds == 0 {
             bail!("times of no rounds");
         }
@@ -30,7 +26,8 @@ impl Workbench<'_> {
             let prepared: Vec<Option<&Prepared>> =
                 order.iter().map(|place| place.map(|i| &session.prepared()[i])).collect();
             self.progress.step(&format!("time {} frames on {}", frames.len(), key.scene));
-            session.time_frames(&prepared, rounds, self.progress)
+            let samples = session.sample_frames(&prepared, rounds, self.progress)?;
+            Ok(samples.into_iter().map(Timed::from).collect())
         })
     }
 }
