@@ -7,7 +7,7 @@ use antumbra::{Capacity, technique::Bias};
 use antumbra_lab::{gpu::Gpu, prepared::Prepared, results::Refused, session::Session, shot::Shot, specs};
 use antumbra_render::GpuScene;
 use antumbra_scene::procedural;
-use antumbra_testing::Trials;
+use antumbra_testing::{Trials, settings};
 use std::sync::Arc;
 
 const RESOLUTION: [u32; 2] = [16, 12];
@@ -27,7 +27,7 @@ fn main() {
     trials.add("maps that are too small are allocated anew", |gpu| {
         let gpu = adopted(gpu);
         let enough = uploaded(&gpu, "spheres").0.capacity().triangles;
-        for spec in ["dpm", "exact"] {
+        for spec in settings::keeping_ids() {
             let session = prepare(&gpu, "spheres", few(5), &[spec]).unwrap();
             let [prepared] = session.prepared() else { panic!("{session:?}") };
             assert_eq!((prepared.shadows.capacity().triangles, prepared.invalid()), (enough, None));

@@ -1,5 +1,5 @@
 //! Shadow maps over any depth image, asked for their visibility at any point: light space is world
-//! space, with x and y in [−1,1] (y up) and depth z in [0,1].
+//! space, with x and y in `[−1,1]` (y up) and depth z in `[0,1]`.
 
 #![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
 

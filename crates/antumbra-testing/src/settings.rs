@@ -2,8 +2,8 @@
 //! of techniques and their parameter tables, so that new ones are among them.
 
 use antumbra::{
-    Field, Parameter, Technique,
-    technique::{self, set},
+    Capabilities, Field, Parameter, Technique,
+    technique::{self, CasterStorage, set},
 };
 use std::collections::BTreeSet;
 
@@ -19,6 +19,24 @@ pub fn variants() -> Vec<String> {
         [name.to_string()].into_iter().chain(variants)
     };
     technique::all().into_iter().flat_map(of).collect()
+}
+
+/// Names of the techniques that keep triangles.
+#[must_use]
+pub fn keeping_triangles() -> Vec<&'static str> {
+    names(|storage| storage != CasterStorage::Depth)
+}
+
+/// Names of the techniques that keep triangles by id.
+#[must_use]
+pub fn keeping_ids() -> Vec<&'static str> {
+    names(CasterStorage::keeps_ids)
+}
+
+fn names(good: impl Fn(CasterStorage) -> bool) -> Vec<&'static str> {
+    let device = Capabilities::full();
+    let described = technique::all().into_iter().filter_map(|technique| technique.describe(&device).ok());
+    described.filter(|described| good(described.storage)).map(|described| described.about.name).collect()
 }
 
 /// Each technique in its defaults and with each of its settings changed by itself, as
@@ -114,6 +132,16 @@ fn values(parameter: &Parameter<'_>) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_is_kept_tells_techniques_apart() {
+        let ([triangles, ids], all) = ([keeping_triangles(), keeping_ids()], technique::all().len());
+        assert!(
+            ids.len() < triangles.len() && triangles.len() < all && !ids.is_empty(),
+            "{ids:?} of {triangles:?}"
+        );
+        assert!(ids.iter().all(|name| triangles.contains(name)) && !triangles.contains(&"hard"));
+    }
 
     #[test]
     fn every_value_of_every_choice_is_among_them() {

@@ -1,6 +1,6 @@
 //! What a camera sees, from its matrix alone: perspective, orthographic, off-centre, reversed, infinite.
 
-use crate::{error::LightError, light::Bounds};
+use crate::{aabb::Bounds, error::LightError};
 use glam::{DMat4, DVec3, DVec4, Mat4, Vec3};
 use std::ops::RangeInclusive;
 

@@ -17,7 +17,6 @@ use wgpu::{BindGroupLayout, BindingResource, BindingType, Buffer, CommandEncoder
 
 mod abuffer;
 mod arrays;
-mod capacity;
 mod cutout;
 mod depth;
 mod ids;
@@ -33,7 +32,6 @@ mod store;
 mod triangle;
 mod views;
 
-pub use capacity::Capacity;
 pub use cutout::CutoutCaster;
 pub use mesh::{CasterMesh, MeshPart};
 pub use pass::CasterPass;

@@ -4,6 +4,7 @@ use thiserror::Error;
 
 /// A setting that a technique does not have or does not take.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum SettingError {
     /// No technique has that name.
     #[error("unknown technique '{name}'; known: {}", known.join(", "))]
@@ -55,6 +56,7 @@ pub enum SettingError {
 
 /// What is wrong with a [`Description`](crate::Description).
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
 pub enum DescriptionError {
     /// The WGSL needs a file that does not exist.
     #[error("its WGSL needs '{stem}', which is no file of the library; there are: {}", known.join(", "))]
@@ -115,6 +117,7 @@ pub enum DescriptionError {
 
 /// Why a [`ShadowMap`](crate::ShadowMap) cannot be made on this device.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum Unsupported {
     /// GL and WebGL2 can only compare depth textures, so nothing could be converted.
     #[error(
@@ -230,6 +233,7 @@ pub enum Unsupported {
 
 /// Why casters leave no shadow in a map.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
 pub enum CasterError {
     /// The closure of [`ShadowMap::encode`](crate::ShadowMap::encode) used its pass, but drew no
     /// [`CasterMesh`](crate::CasterMesh).
@@ -270,6 +274,7 @@ pub struct NameError {
 
 /// Why buffers are no [`CasterMesh`](crate::CasterMesh).
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
 pub enum MeshError {
     /// Shaders read storage buffers, and graphics cards indices.
     #[error("the buffer of {what} has usage {found}; needed: {needed}")]
@@ -315,6 +320,7 @@ pub enum MeshError {
 
 /// Why a light has no view.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum LightError {
     /// Zero, NaN or infinite direction.
     #[error("light direction {direction} has no length or is not finite")]
@@ -330,12 +336,14 @@ pub enum LightError {
     },
     /// A spot's half angle must leave a perspective projection possible.
     #[error(
-        "outer angle {radians} rad is out of range; allowed: more than 0, at most {} (84.8°)",
-        crate::Light::MAX_OUTER_ANGLE
+        "outer angle {radians} rad is out of range; allowed: more than 0, at most {max} ({:.1}°)",
+        max.to_degrees()
     )]
     Angle {
         /// Half angle in radians.
         radians: f32,
+        /// Largest.
+        max: f32,
     },
     /// Bounds with min > max or non-finite corners.
     #[error("bounds {min} – {max} of the {what} are empty or not finite")]

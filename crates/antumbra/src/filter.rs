@@ -3,6 +3,7 @@
 use crate::{
     capabilities::Capabilities,
     describe::{
+        About, Binding, Description,
         map::{Access, Combine, Encode, Map, Pass},
         wgsl::Constant,
     },
@@ -10,6 +11,7 @@ use crate::{
     parameter::{Field, Parameter, choice},
     table::{MOST_SUMMED, Table},
 };
+use std::borrow::Cow;
 
 choice! {
     /// How a receiver reads a filtered map.
@@ -287,5 +289,30 @@ impl Filter {
     /// Half the width of the blur and of a bilinear lookup, in texels.
     pub(crate) fn filter_radius_texels(&self) -> f32 {
         self.kernel as f32 / 2.0 + 0.5
+    }
+}
+
+impl Description {
+    /// Keeps one map of such values that is filtered before receivers read it: [`Binding::Map`] and
+    /// [`Binding::Sampler`], with `lookup_filtered` as set in the slot `lookup`.
+    #[must_use]
+    pub fn filtered(
+        about: About,
+        wgsl: impl Into<Cow<'static, str>>,
+        filter: &Filter,
+        values: Values,
+        device: &Capabilities,
+    ) -> Self {
+        Self {
+            slots: filter.slots(&values, device),
+            constants: filter.constants(&values),
+            blur: filter.adapted(),
+            bindings: vec![Binding::Map(0), Binding::Sampler],
+            filter_radius_texels: filter.filter_radius_texels(),
+            fetches: filter.fetches(&values),
+            maps: vec![filter.map(&values, device)],
+            notes: filter.notes(values),
+            ..Self::new(about, wgsl)
+        }
     }
 }

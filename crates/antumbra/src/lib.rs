@@ -158,10 +158,12 @@
 #[doc = include_str!("../README.md")]
 struct Readme;
 
+mod aabb;
 mod bias;
 mod bound;
 mod camera;
 mod capabilities;
+mod capacity;
 mod cast;
 mod describe;
 mod error;
@@ -188,7 +190,8 @@ pub use wgpu;
 
 pub use camera::visible_hull;
 pub use capabilities::Capabilities;
-pub use cast::{Capacity, CasterMesh, CasterPass, CutoutCaster, MeshPart};
+pub use capacity::Capacity;
+pub use cast::{CasterMesh, CasterPass, CutoutCaster, MeshPart};
 pub use error::{CasterError, DescriptionError, LightError, MeshError, NameError, SettingError, Unsupported};
 pub use filter::{Filter, Sampling, Values};
 pub use kernel::{Kernel, Weights};
@@ -201,8 +204,4 @@ pub use parameter::{Choice, Field, Parameter};
 pub use precision::Precision;
 pub use shader::{CASTER_WGSL, Shader, ShaderText};
 pub use table::Table;
-pub use technique::{
-    Description, Technique, bicubic::Bicubic, csm::Csm, dpm::Dpm, esm::Esm, evsm::Evsm, exact::Exact,
-    footprint::Footprint, hard::Hard, lvsm::Lvsm, msm::Msm, packed::Packed, pcf::Pcf, poisson::Poisson,
-    rgsm::Rgsm, spsm::Spsm, stratified::Stratified, vsm::Vsm,
-};
+pub use technique::{Description, Technique, types::*};

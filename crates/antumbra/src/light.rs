@@ -10,12 +10,14 @@ mod fit;
 mod spot;
 mod view;
 
+pub use crate::aabb::Bounds;
 pub use cascade::{CameraFit, Cascades};
-pub use fit::{Bounds, Fit, Size};
+pub use fit::{Fit, Size};
 pub use view::View;
 
 /// A light that casts shadows, in world space. Directions point the way the light travels.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub enum Light {
     /// Parallel rays, like the sun's.
     Directional {

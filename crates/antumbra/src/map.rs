@@ -2,7 +2,8 @@
 
 use crate::{
     capabilities::Capabilities,
-    cast::{self, Capacity, Cast, Plan},
+    capacity::Capacity,
+    cast::{self, Cast, Plan},
     describe::{Description, Technique},
     light::{Size, View},
     shader::{Composition, ShaderText},

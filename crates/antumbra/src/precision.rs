@@ -1,10 +1,16 @@
 //! How exactly a comparison technique stores depth.
 
 use crate::{
+    bias::BiasTerms,
     capabilities::Capabilities,
-    describe::wgsl::Constant,
+    describe::{
+        About, Binding, Description,
+        map::{Encode, Map},
+        wgsl::{Constant, DepthSpace},
+    },
     parameter::{Field, Parameter, choice},
 };
+use std::borrow::Cow;
 use wgpu::TextureFormat;
 
 choice! {
@@ -72,6 +78,55 @@ impl Precision {
     /// Its row in a technique's parameter table.
     pub(crate) fn parameter(&mut self) -> Parameter<'_> {
         Parameter::new("precision", "bits", Field::Choice(self), "how exactly depth is stored")
+    }
+}
+
+impl Description {
+    /// Compares the casters' own depth through a comparison sampler: [`Binding::Depth`] and
+    /// [`Binding::Compare`], with `reference_depth` of such a precision in the slot `reference`.
+    ///
+    /// Bias and filter radius are those of a single lookup.
+    #[must_use]
+    pub fn comparison(
+        about: About,
+        wgsl: impl Into<Cow<'static, str>>,
+        filter: wgpu::FilterMode,
+        precision: Precision,
+    ) -> Self {
+        let (bias, filter_radius_texels) = match filter {
+            wgpu::FilterMode::Nearest => (BiasTerms::TEXELS, 0.5),
+            wgpu::FilterMode::Linear => (BiasTerms::FOURS, 1.0),
+        };
+        Self {
+            slots: vec![precision.slot()],
+            constants: precision.constants(),
+            bindings: vec![Binding::Depth, Binding::Compare(filter)],
+            depth_space: DepthSpace::Raster,
+            depth_quantum: precision.step(),
+            bias,
+            filter_radius_texels,
+            ..Self::new(about, wgsl)
+        }
+    }
+
+    /// Keeps one map of depths and compares them itself: [`Binding::Map`], with `reference_depth` as in
+    /// [`comparison`](Self::comparison). Depth is linear.
+    #[must_use]
+    pub fn stored_depth(
+        about: About,
+        wgsl: impl Into<Cow<'static, str>>,
+        (name, layers, encode): (&'static str, u32, Encode),
+        precision: Precision,
+        device: &Capabilities,
+    ) -> Self {
+        let (format, note) = precision.rgba(device);
+        Self {
+            maps: vec![Map { layers, ..Map::new(name, format, encode) }],
+            bindings: vec![Binding::Map(0)],
+            depth_space: DepthSpace::Linear,
+            notes: note.into_iter().collect(),
+            ..Self::comparison(about, wgsl, wgpu::FilterMode::Nearest, precision)
+        }
     }
 }
 

@@ -78,7 +78,13 @@ pub fn spec(technique: &dyn Technique) -> String {
 /// Declares the modules and [`all`]: one line per technique.
 macro_rules! techniques {
     ($($module:ident :: $name:ident),+ $(,)?) => {
-        $(pub mod $module; pub use $module::$name;)+
+        $(pub mod $module;)+
+
+        /// The types of all techniques.
+        pub(crate) mod types {
+            $(pub use super::$module::$name;)+
+        }
+        pub use types::*;
 
         /// Every technique with its default settings, in the order in which tables list them.
         #[must_use]

@@ -8,7 +8,7 @@ use antumbra::{
     Pipelines, Sampling, SettingError, ShadowMap, Size, Technique, Unsupported, Vsm, technique,
     technique::{BiasTerms, evsm},
 };
-use antumbra_testing::{Gpu, Trials, ask};
+use antumbra_testing::{Gpu, Trials, ask, settings};
 
 const SIZE: Size = Size::square(16);
 
@@ -204,7 +204,9 @@ fn triangles(gpu: &Gpu) {
         Options::from(Size::square(size)).capacity(Capacity { triangles, triangles_per_texel })
     };
     says(&refusal(gpu, &Dpm { keeps: 33, ..Dpm::default() }, SIZE), &["dpm.keeps", "33", "1 to 32"]);
-    for technique in [&Exact as &dyn Technique, &Dpm::default()] {
+    for name in settings::keeping_ids() {
+        let technique = technique::parse(name).unwrap();
+        let technique = technique.as_ref();
         says(&refusal(gpu, technique, of(8, 0, 1)), &["capacity.triangles", "= 0 ", "1 to 1073741824"]);
         says(&refusal(gpu, technique, of(8, 1, 0)), &["capacity.triangles_per_texel", "= 0 "]);
         let error = ShadowMap::from_depth(&gpu.device, technique, &texture(gpu, |_| ()), SIZE).unwrap_err();

@@ -106,6 +106,16 @@ pub(crate) fn technique(spec: &str, title: &str, family: Family, visibility: f32
     }
 }
 
+fn adapter() -> AdapterFacts {
+    AdapterFacts {
+        name: "a device".into(),
+        driver: "1.2".into(),
+        backend: "Vulkan".into(),
+        device_type: "Cpu".into(),
+        features: vec![],
+    }
+}
+
 pub(crate) fn results() -> Results {
     let techniques = vec![
         technique("hard", "Standard shadow map", Family::Comparison, 0.6),
@@ -134,13 +144,7 @@ pub(crate) fn results() -> Results {
             kernel_texels: 5,
             bias: "auto".into(),
             views: vec![ViewFacts { texel_world: 0.01, depth_world: 10.0 }],
-            adapter: AdapterFacts {
-                name: "a device".into(),
-                driver: "1.2".into(),
-                backend: "Vulkan".into(),
-                device_type: "Cpu".into(),
-                features: vec![],
-            },
+            adapter: adapter(),
             warnings: Vec::new(),
             notes: Vec::new(),
         },

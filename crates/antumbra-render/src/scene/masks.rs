@@ -8,14 +8,14 @@ use std::collections::BTreeMap;
 /// Rust side of `Mask` in `covers.wgsl`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
-struct Mask {
-    start: u32,
-    width: u32,
-    height: u32,
-    repeats: u32,
-    alpha: f32,
-    cutoff: f32,
-    first: u32,
+pub(super) struct Mask {
+    pub(super) start: u32,
+    pub(super) width: u32,
+    pub(super) height: u32,
+    pub(super) repeats: u32,
+    pub(super) alpha: f32,
+    pub(super) cutoff: f32,
+    pub(super) first: u32,
 }
 
 /// Alphas of the images, and which part of them the corners of masked triangles show.
@@ -102,8 +102,10 @@ fn masks(geometry: &Geometry, first: u32) -> (Vec<Mask>, Vec<u8>) {
     (masks, alphas)
 }
 
-/// As `mask_corners` in `covers.wgsl`, four floats each.
-fn corners(geometry: &Geometry, first: u32) -> Vec<[f32; 4]> {
+/// An entry of `mask_corners` in `covers.wgsl`.
+pub(super) type Corner = [f32; 4];
+
+fn corners(geometry: &Geometry, first: u32) -> Vec<Corner> {
     let corner = |&i: &u32| {
         let (uv, color) = (geometry.uvs[i as usize], geometry.colors[i as usize]);
         [uv.x, uv.y, color.w, 0.0]

@@ -1,6 +1,10 @@
 //! Rust and WGSL see the same bytes: asked of the shader by reflection.
 
-use super::{Frame, materials::MaterialUniform};
+use super::{
+    Frame,
+    masks::{Corner, Mask},
+    materials::MaterialUniform,
+};
 use std::mem::offset_of;
 
 /// What is wrong if the struct `name` in `wgsl` differs from these members, offsets and size.
@@ -35,6 +39,23 @@ fn uniforms_have_one_layout() {
     check(WGSL, "Material", &material, size_of::<MaterialUniform>()).unwrap();
 }
 
+const COVERS: &str = include_str!("covers.wgsl");
+
+fn mask() -> [(&'static str, usize); 7] {
+    members!(Mask: start, width, height, repeats, alpha, cutoff, first)
+}
+
+/// Corners are vectors of three floats, which begin every four.
+#[test]
+fn masks_have_one_layout() {
+    check(COVERS, "Mask", &mask(), size_of::<Mask>()).unwrap();
+    let module = naga::front::wgsl::parse_str(COVERS).unwrap();
+    let (_, corners) =
+        module.global_variables.iter().find(|(_, v)| v.name.as_deref() == Some("mask_corners")).unwrap();
+    let naga::TypeInner::Array { stride, .. } = module.types[corners.ty].inner else { panic!("no array") };
+    assert_eq!(stride as usize, size_of::<Corner>());
+}
+
 #[test]
 fn another_layout_is_noticed() {
     let broken = [
@@ -46,6 +67,9 @@ fn another_layout_is_noticed() {
         WGSL.replace("    forward: vec4f,", "    forward: vec4f,\n    more: f32,"),
         WGSL.replace("struct Frame", "struct Fame"),
     ];
+    let wgsl = COVERS.replace("    alpha: f32,\n    cutoff: f32,", "    cutoff: f32,\n    alpha: f32,");
+    assert_ne!(wgsl, COVERS);
+    check(&wgsl, "Mask", &mask(), size_of::<Mask>()).unwrap_err();
     for wgsl in broken {
         assert_ne!(wgsl, WGSL);
         check(&wgsl, "Frame", &frame(), size_of::<Frame>()).unwrap_err();

@@ -42,7 +42,7 @@ pub fn filtering_keeps_the_mean(gpu: &Gpu, technique: &dyn Technique) -> Result<
         };
         let combine = map.passes.iter().find_map(|p| match p {
             Pass::Blur(_, combine) | Pass::Mips(combine) => Some(*combine),
-            Pass::Sum(_) => None,
+            _ => None,
         });
         let (absolute, relative) = rounding(filtered.format());
         let (power, relative) = match combine {
@@ -52,6 +52,7 @@ pub fn filtering_keeps_the_mean(gpu: &Gpu, technique: &dyn Technique) -> Result<
             Some(Combine::LogMean(c)) => {
                 (f64::from(c), f64::from(c) * (8.0 * absolute.max(1e-6) + 0.5 * relative))
             }
+            Some(other) => return Err(format!("this law does not know what {other:?} keeps")),
         };
         let value = |t: f64| if power > 0.0 { (power * (t - 1.0)).exp() } else { t };
         for layer in 0..filtered.depth_or_array_layers() {

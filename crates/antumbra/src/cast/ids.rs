@@ -3,11 +3,12 @@
 use super::{
     Cast, Plan, Site, Step, Store,
     arrays::{Array, Element, Image, Storage, called},
-    capacity, check_casts, refused,
+    check_casts, refused,
     split::Split,
     triangle::{self, Holes, PULLED, TrianglePass},
 };
 use crate::{
+    capacity,
     describe::Coverage,
     error::Unsupported,
     map::Pipelines,

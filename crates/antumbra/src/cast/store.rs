@@ -4,7 +4,7 @@
 
 use super::arrays::{Array, Image};
 use crate::{
-    capabilities::Capabilities, cast::Capacity, error::Unsupported, light::Size, map::Options,
+    capabilities::Capabilities, capacity::Capacity, error::Unsupported, light::Size, map::Options,
     shader::Composition,
 };
 use std::fmt::Debug;

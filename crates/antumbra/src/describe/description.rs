@@ -6,11 +6,8 @@ use super::{
 };
 use crate::{
     bias::BiasTerms,
-    capabilities::Capabilities,
     error::DescriptionError,
-    filter::{Filter, Values},
     kernel::{Adaptive, Width},
-    precision::Precision,
 };
 use glam::Vec2;
 use std::borrow::Cow;
@@ -110,84 +107,11 @@ impl Description {
         }
     }
 
-    /// Compares the casters' own depth through a comparison sampler: [`Binding::Depth`] and
-    /// [`Binding::Compare`], with `reference_depth` of such a precision in the slot `reference`.
-    ///
-    /// Bias and filter radius are those of a single lookup.
-    #[must_use]
-    pub fn comparison(
-        about: About,
-        wgsl: impl Into<Cow<'static, str>>,
-        filter: wgpu::FilterMode,
-        precision: Precision,
-    ) -> Self {
-        let (bias, filter_radius_texels) = match filter {
-            wgpu::FilterMode::Nearest => (BiasTerms::TEXELS, 0.5),
-            wgpu::FilterMode::Linear => (BiasTerms::FOURS, 1.0),
-        };
-        Self {
-            slots: vec![precision.slot()],
-            constants: precision.constants(),
-            bindings: vec![Binding::Depth, Binding::Compare(filter)],
-            depth_space: DepthSpace::Raster,
-            depth_quantum: precision.step(),
-            bias,
-            filter_radius_texels,
-            ..Self::new(about, wgsl)
-        }
-    }
-
-    /// Keeps one map of depths and compares them itself: [`Binding::Map`], with `reference_depth` as in
-    /// [`comparison`](Self::comparison). Depth is linear.
-    #[must_use]
-    pub fn stored_depth(
-        about: About,
-        wgsl: impl Into<Cow<'static, str>>,
-        (name, layers, encode): (&'static str, u32, Encode),
-        precision: Precision,
-        device: &Capabilities,
-    ) -> Self {
-        let (format, note) = precision.rgba(device);
-        Self {
-            maps: vec![Map { layers, ..Map::new(name, format, encode) }],
-            bindings: vec![Binding::Map(0)],
-            depth_space: DepthSpace::Linear,
-            notes: note.into_iter().collect(),
-            ..Self::comparison(about, wgsl, wgpu::FilterMode::Nearest, precision)
-        }
-    }
-
-    /// Keeps one map of such values that is filtered before receivers read it: [`Binding::Map`] and
-    /// [`Binding::Sampler`], with `lookup_filtered` as set in the slot `lookup`.
-    #[must_use]
-    pub fn filtered(
-        about: About,
-        wgsl: impl Into<Cow<'static, str>>,
-        filter: &Filter,
-        values: Values,
-        device: &Capabilities,
-    ) -> Self {
-        Self {
-            slots: filter.slots(&values, device),
-            constants: filter.constants(&values),
-            blur: filter.adapted(),
-            bindings: vec![Binding::Map(0), Binding::Sampler],
-            filter_radius_texels: filter.filter_radius_texels(),
-            fetches: filter.fetches(&values),
-            maps: vec![filter.map(&values, device)],
-            notes: filter.notes(values),
-            ..Self::new(about, wgsl)
-        }
-    }
-
-    /// Keeps triangles as such a caster leaves them, and reads all that it leaves: a map of whole numbers, the
-    /// textures of lists, or the depth and buffers of ranked triangles. Depth is projected, in which triangles
-    /// are planes under any light.
+    /// Keeps triangles in that way, and reads them: a map of whole numbers, or what a store keeps by id. Depth is
+    /// projected, in which triangles are planes under any light.
     #[must_use]
     pub fn triangles(about: About, wgsl: impl Into<Cow<'static, str>>, storage: CasterStorage) -> Self {
         let kept = Self { storage, depth_space: DepthSpace::Raster, ..Self::new(about, wgsl) };
-        // Distance of 32-bit floats below 1, where a spot's projected depths crowd.
-        let rays = |kept| Self { bias: BiasTerms::RAYS, depth_quantum: f32::EPSILON / 2.0, ..kept };
         match storage {
             CasterStorage::Depth => Self { bindings: vec![Binding::Depth], ..kept },
             CasterStorage::NearestTriangle(layers) => {
@@ -200,10 +124,8 @@ impl Description {
                     ..kept
                 }
             }
-            CasterStorage::ABuffer => rays(kept),
-            #[cfg(feature = "store")]
-            CasterStorage::Own(_) => rays(kept),
-            CasterStorage::KBuffer { .. } => rays(Self { bindings: vec![Binding::Depth], ..kept }),
+            // Distance of 32-bit floats below 1, where a spot's projected depths crowd.
+            _ => Self { bias: BiasTerms::RAYS, depth_quantum: f32::EPSILON / 2.0, ..kept },
         }
     }
 

@@ -39,6 +39,7 @@ impl Map {
 
 /// The WGSL function that makes layer `layer` of a [`Map`] from linear depth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Encode {
     /// `(depth: f32, layer: u32) -> vec4f`: a texel depends on its own depth alone. A blur
     /// that follows runs its rows on the encoded depths, without storing them first.
@@ -50,6 +51,7 @@ pub enum Encode {
 
 /// A step of the pre-filter.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub enum Pass {
     /// Separable convolution of every layer, edge texels repeated.
     Blur(Kernel, Combine),
@@ -61,6 +63,7 @@ pub enum Pass {
 
 /// How a filter puts texels together.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub enum Combine {
     /// Weighted mean.
     Mean,
@@ -72,6 +75,7 @@ pub enum Combine {
 
 /// How receivers read a [`Map`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Access {
     /// One texel at a time.
     Texel,

@@ -2,6 +2,7 @@
 
 /// A texture or sampler that the technique's WGSL function takes, in parameter order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Binding {
     /// `texture_depth_2d_array`: the depth of the casters, one layer per view, as rasterised.
     Depth,

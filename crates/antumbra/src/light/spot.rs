@@ -17,7 +17,7 @@ pub(super) fn view(position: Vec3, direction: Vec3, outer_angle: f32, fit: &Fit)
         return Err(LightError::Position { position });
     }
     if !(outer_angle > 0.0 && outer_angle <= Light::MAX_OUTER_ANGLE) {
-        return Err(LightError::Angle { radians: outer_angle });
+        return Err(LightError::Angle { radians: outer_angle, max: Light::MAX_OUTER_ANGLE });
     }
     let (position, axes) = (position.as_dvec3(), Axes::new(direction)?);
     let relative = |p: Vec3| axes.of(p.as_dvec3() - position);

@@ -82,6 +82,7 @@ impl MemoryItem {
 
 /// All allocations of a shadow map.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Memory {
     /// One entry per texture or buffer.
     pub items: Vec<MemoryItem>,

@@ -1,7 +1,7 @@
 //! How a shadow map is made, and who listens to its passes.
 
 use super::Pipelines;
-use crate::{cast::Capacity, light::Size, technique::Bias};
+use crate::{capacity::Capacity, light::Size, technique::Bias};
 
 /// How a [`ShadowMap`](crate::ShadowMap) is made. A [`Size`] alone is enough.
 #[derive(Debug, Clone)]

@@ -13,6 +13,7 @@ use wgpu::TextureFormat;
 
 /// A shader that a [`ShadowMap`](crate::ShadowMap) compiles.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Shader {
     /// What it is for: `cast`, `cut-out`, `scan`, `convert`, `blur`, `mips` or `sum`.
     pub pass: &'static str,

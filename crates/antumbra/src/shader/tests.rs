@@ -2,7 +2,8 @@ use super::{files::FILES, *};
 use crate::{
     Options, Size,
     capabilities::Capabilities,
-    cast::{self, Capacity},
+    capacity::Capacity,
+    cast,
     describe::{Binding, Description, Technique},
     error::{DescriptionError, Unsupported},
     technique::{self, parse},
@@ -173,7 +174,7 @@ fn every_technique_validates_with_its_needs() {
 fn split_arrays_validate() {
     for mut device in devices() {
         device.limits.max_storage_buffer_binding_size = 4096;
-        for name in ["dpm", "exact"] {
+        for name in settings::keeping_ids() {
             let composition = composed(parse(name).unwrap().as_ref(), &device, false);
             let module = validate(&receiver(&composition, &device).text()).unwrap();
             let bound = module.global_variables.iter().filter_map(|(_, v)| Some(v.binding.as_ref()?.binding));

@@ -46,6 +46,7 @@ impl Technique for Bicubic {
 }
 
 /// The paper's formula.
+#[doc(hidden)]
 pub mod reference {
     /// The uniform cubic B-spline at `x` texels from its centre.
     #[must_use]

@@ -226,6 +226,7 @@ impl Technique for Csm {
 }
 
 /// The paper's formulas in f64: what the WGSL is tested against.
+#[doc(hidden)]
 pub mod reference {
     use super::{Csm, PI};
 

@@ -10,7 +10,7 @@
 //! Story 2015, "Hybrid Ray-Traced Shadows" (Game Developers Conference); the k-buffer of Bavoil et al.
 //! 2007.
 
-use super::{About, CasterStorage, Class, Constant, Description, Family, Technique};
+use super::{About, Binding, CasterStorage, Class, Constant, Description, Family, Technique};
 use crate::{
     capabilities::Capabilities,
     error::Unsupported,
@@ -73,6 +73,7 @@ impl Technique for Dpm {
                 Constant::Count("dpm_keeps", self.keeps),
                 Constant::Count("dpm_samples", self.samples),
             ],
+            bindings: vec![Binding::Depth],
             classes: &CLASSES,
             // Centres are asked a texel farther out.
             filter_radius_texels: 1.5,

@@ -268,6 +268,7 @@ impl Technique for Esm {
 }
 
 /// The paper's formulas in f64: what the WGSL is tested against.
+#[doc(hidden)]
 pub mod reference {
     /// e^(c z).
     #[must_use]

@@ -235,6 +235,7 @@ impl Technique for Evsm {
 }
 
 /// The paper's formulas in f64: what the WGSL is tested against.
+#[doc(hidden)]
 pub mod reference {
     use super::Evsm;
 

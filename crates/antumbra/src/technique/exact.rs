@@ -12,7 +12,7 @@
 
 use super::{About, CasterStorage, Description, Family, Technique};
 use crate::{
-    capabilities::Capabilities, error::Unsupported, cast::Capacity, parameter::Parameter,
+    capabilities::Capabilities, capacity::Capacity, error::Unsupported, parameter::Parameter,
 };
 
 /// Lists of all triangles. 16 bytes per texel, 4 for each triangle per texel of the map's [`Capacity`], 48
@@ -46,6 +46,7 @@ impl Technique for Exact {
 }
 
 /// The answer in f64.
+#[doc(hidden)]
 pub mod reference {
     /// Depth of a triangle with corners (x, y, depth) at a point; infinite if it does not cover it.
     #[must_use]

@@ -64,6 +64,7 @@ impl Technique for Footprint {
 }
 
 /// The number of lookups in whole numbers.
+#[doc(hidden)]
 pub mod reference {
     /// Lookups along both sides of a footprint of those lengths in texels: at most `budget`, in the
     /// proportion of the sides.

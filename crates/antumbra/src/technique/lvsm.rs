@@ -163,6 +163,7 @@ impl Technique for Lvsm {
 }
 
 /// The paper's formulas in f64: what the WGSL is tested against.
+#[doc(hidden)]
 pub mod reference {
     use super::Lvsm;
 

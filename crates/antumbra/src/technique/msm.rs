@@ -166,6 +166,7 @@ impl Technique for Msm {
 }
 
 /// The paper's formulas in f64: what the WGSL is tested against.
+#[doc(hidden)]
 pub mod reference {
     /// (z, z², z³, z⁴) of z = 2 · linear depth − 1.
     #[must_use]

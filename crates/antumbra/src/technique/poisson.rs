@@ -109,6 +109,7 @@ fn centre(count: u32) -> DVec2 {
 }
 
 /// Disk and noise in f64.
+#[doc(hidden)]
 pub mod reference {
     use glam::DVec2;
 

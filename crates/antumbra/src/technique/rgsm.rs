@@ -97,6 +97,7 @@ impl Technique for Rgsm {
 }
 
 /// The paper's answer in f64.
+#[doc(hidden)]
 pub mod reference {
     /// Whether a stored triangle with corners (x, y, depth) is before a receiver; `None` if the
     /// receiver's ray does not meet it.

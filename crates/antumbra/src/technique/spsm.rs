@@ -125,6 +125,7 @@ impl Technique for Spsm {
 }
 
 /// The paper's steps in f64.
+#[doc(hidden)]
 pub mod reference {
     /// Q of Eq. 3 with n = 5, before rounding: 0 to 254.
     #[must_use]

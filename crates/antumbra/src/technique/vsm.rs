@@ -150,6 +150,7 @@ impl Technique for Vsm {
 }
 
 /// The paper's formulas in f64: what the WGSL is tested against.
+#[doc(hidden)]
 pub mod reference {
     /// Moments of a texel from its own depth and those of its neighbours, as the WGSL takes them:
     /// `depths[1 + dx][1 + dy]`.

@@ -5,7 +5,7 @@ use antumbra::{
     technique::{self, CasterStorage, Coverage},
 };
 use antumbra_testing::ask::{Random, Receiver, caster_mesh, view, visibility};
-use antumbra_testing::{Gpu, broken::Broken};
+use antumbra_testing::{Gpu, broken::Broken, settings};
 use glam::{Vec2, Vec3};
 
 /// Texels across.
@@ -349,7 +349,7 @@ pub(crate) fn draws_come_in_any_order(gpu: &Gpu) {
         ),
         (&|pass, mesh, cutout| pass.draw_cutout(mesh, .., cutout.unwrap()), [1.0, 1.0]),
     ];
-    for spec in ["rgsm", "spsm", "dpm", "exact"] {
+    for spec in settings::keeping_triangles() {
         for (draw, expected) in orders {
             let found = answers_where(gpu, &Broken::new(spec), &casters, (Some(hole), draw), &receivers);
             assert_eq!(found, expected, "{spec}");

@@ -2,8 +2,8 @@
 
 use super::lists::{MAP, TRIANGLES, soup};
 use antumbra::{Capacity, CasterMesh, MeshError, MeshPart, Options, ShadowMap, technique};
-use antumbra_testing::Gpu;
 use antumbra_testing::ask::{Random, Receiver, caster_buffers, view, visibility};
+use antumbra_testing::{Gpu, settings};
 use glam::{Mat4, Vec2, Vec3};
 
 /// Bytes of a binding: less than the counts, keys or corners of a map, or the positions of its mesh.
@@ -21,7 +21,7 @@ pub(crate) fn split_buffers_answer_the_same(gpu: &Gpu) {
     let corners: Vec<Vec3> = soup(&mut Random::new(41)).into_flattened();
     let capacity = Capacity { triangles: TRIANGLES, triangles_per_texel: 40 };
     let options = Options::from(MAP).capacity(capacity);
-    for spec in ["dpm.keeps=2", "exact", "spsm", "rgsm"] {
+    for spec in settings::keeping_triangles() {
         let technique = technique::parse(spec).unwrap();
         let answers = |gpu: &Gpu, parts: &[MeshPart]| {
             let mut shadows = ShadowMap::new(&gpu.device, technique.as_ref(), options.clone()).unwrap();

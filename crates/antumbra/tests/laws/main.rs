@@ -15,7 +15,8 @@ fn main() {
     for (fault, law, broken) in controls::broken() {
         laws::add_rejected(&mut trials, fault, law, &broken);
     }
-    for (spec, triangles, triangles_per_texel) in [("dpm", 1, 6), ("exact", 1, 6), ("exact", 1 << 14, 1)] {
+    let triangles = settings::keeping_ids().into_iter().map(|spec| (spec, 1, 6));
+    for (spec, triangles, triangles_per_texel) in triangles.chain([("exact", 1 << 14, 1)]) {
         let name = format!("rejected: {triangles} triangles, {triangles_per_texel} per texel ({spec})");
         trials.add(name, move |gpu| {
             let technique = technique::parse(spec).unwrap();

@@ -37,7 +37,7 @@ impl Capacity {
 }
 
 /// Whether a capacity holds anything, and ids can tell all of it apart.
-pub(super) fn check(capacity: Capacity) -> Result<(), Unsupported> {
+pub(crate) fn check(capacity: Capacity) -> Result<(), Unsupported> {
     let within = |name: &str, value: u32, max: u32| match (1..=max).contains(&value) {
         true => Ok(()),
         false => Err(Unsupported::Setting(SettingError::OutOfRange {
