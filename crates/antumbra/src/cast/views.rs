@@ -11,6 +11,9 @@ use wgpu::{BindingResource, Buffer, BufferUsages};
 /// Share of a spot's near distance in front of which casters are cut off.
 const LEAST_DISTANCE: f32 = 1.0 / 64.0;
 
+/// How far the planes of steep triangles may come before casters that are nearer, texels.
+const LEAN: f32 = 2.0;
+
 /// Rust side of `CasterView` in `mesh.wgsl.in`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
@@ -21,11 +24,13 @@ struct CasterView {
     perspective: u32,
     reach: f32,
     near_over_far: f32,
-    padding: [f32; 2],
+    lean: f32,
+    padding: f32,
 }
 
 impl CasterView {
-    fn new(view: &View, size: Size, coverage: Coverage) -> Self {
+    /// Of one of the kinds of texels that triangles are drawn to.
+    fn new(view: &View, size: Size, coverage: Coverage, among: &[Coverage]) -> Self {
         // The apex lies in front of the near plane by the near distance.
         let near = -view.depth_world * view.depth_plane.dot(view.to_light);
         let perspective = perspective(view);
@@ -39,7 +44,13 @@ impl CasterView {
                 Coverage::Centre => 0.0,
             },
             near_over_far: view.near_over_far(),
-            padding: [0.0; 2],
+            // Depth is even under the sun alone.
+            lean: if coverage == Coverage::Touched && among.contains(&Coverage::Centre) && perspective == 0 {
+                LEAN * view.texel_world / view.depth_world
+            } else {
+                0.0
+            },
+            padding: 0.0,
         }
     }
 }
@@ -73,7 +84,7 @@ impl CasterViews {
     pub(super) fn write(&self, queue: &wgpu::Queue, views: &[View]) {
         let all = views.iter().flat_map(|view| self.coverages.iter().map(move |coverage| (view, coverage)));
         for (index, (view, coverage)) in (0..).zip(all) {
-            let bytes = CasterView::new(view, self.size, *coverage);
+            let bytes = CasterView::new(view, self.size, *coverage, self.coverages);
             queue.write_buffer(&self.buffer, index * self.stride, bytemuck::bytes_of(&bytes));
         }
     }

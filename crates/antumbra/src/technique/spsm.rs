@@ -3,11 +3,12 @@
 //!
 //! Casters are drawn conservatively, so that a texel without an occluder is certainly lit. A receiver
 //! is lit or shadowed by the triangle of its own texel or of the eight around it wherever that is
-//! certain; elsewhere triangles may be missing. As published, the silhouette is then recovered from the
-//! corners of those that were kept. With a second layer, of triangles at texels' centres, the centres
-//! around decide, which are samples that nothing is missing from: what no kept triangle covers is lit
-//! unless most of what surrounds it is shadowed. Gaps between occluders and occluders that are narrower
-//! than a texel may vanish, and where many small triangles share a texel edges fray.
+//! certain; elsewhere triangles may be missing.
+//!
+//! As published, [`Spsm::PUBLISHED`], the silhouette is then recovered from those that were kept. With a second layer, of
+//! triangles at texels' centres, the centres around decide, which are samples that nothing is missing from: what
+//! no kept triangle covers is lit unless most of what surrounds it is shadowed. Gaps between occluders and occluders
+//! that are narrower than a texel may vanish, and where many small triangles share a texel edges fray.
 //!
 //! Lecocq, Marvie, Sourimant, Gautron 2014, "Sub-Pixel Shadow Mapping".
 
@@ -42,9 +43,19 @@ impl Packing {
     }
 }
 
+choice! {
+    /// What is done with receivers for which no triangle is certain.
+    Uncertain {
+        /// With one layer the silhouette is recovered, with two the texels' centres tell.
+        Recovered = "recovered",
+        /// They are lit: what conservative rasterisation and the stored triangles do by themselves.
+        Lit = "lit",
+    }
+}
+
 /// Sub-pixel shadow map. 1 to 5 lookups where that is enough, up to 9 more per layer, and 9 for the texels'
-/// centres, else; with one layer up to 4 times 9 more where the silhouette has to be recovered. 16 bytes
-/// per texel and layer.
+/// centres, else; with one layer 1 lookup, or 9 more, and up to 5 times 9 more where the silhouette has to be recovered.
+/// 16 bytes per texel and layer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Spsm {
@@ -52,14 +63,34 @@ pub struct Spsm {
     pub packing: Packing,
     /// 1 as published; 2 adds the triangle at each texel's centre.
     pub layers: u32,
-    /// Positions along one side of a pixel at which shadows are asked, 1 to 4: those in its corners, and
-    /// where these differ all.
+    /// Exponent of the levels of slopes, odd, of the packings that keep corners: 5 as published, 1 for levels that are
+    /// equally far apart.
+    pub exponent: u32,
+    /// Texels along one side of the square whose triangles may shadow a receiver, 3 as published or 5.
+    pub neighbours: u32,
+    /// What is done with receivers for which no triangle is certain.
+    pub uncertain: Uncertain,
+    /// Positions along one side of a pixel at which shadows are asked, 1 to 4. With one layer all are compared with a
+    /// silhouette that is recovered once, as published; with two those in the corners are asked first, and where these
+    /// differ all.
     pub samples: u32,
+}
+
+impl Spsm {
+    /// As published: `spsm.packing=map,layers=1`.
+    pub const PUBLISHED: Self = Self {
+        packing: Packing::Map,
+        layers: 1,
+        exponent: 5,
+        neighbours: 3,
+        uncertain: Uncertain::Recovered,
+        samples: 1,
+    };
 }
 
 impl Default for Spsm {
     fn default() -> Self {
-        Self { packing: Packing::Edges, layers: 2, samples: 1 }
+        Self { packing: Packing::Edges, layers: 2, ..Self::PUBLISHED }
     }
 }
 
@@ -68,6 +99,16 @@ const CLASSES: [Class; 3] = [
     Class { name: "shadowed by a triangle of 3×3 texels", colour: [40, 160, 60] },
     Class { name: "uncertain", colour: [224, 32, 32] },
 ];
+
+impl Spsm {
+    /// The common file and an ending: what decides where nothing is certain.
+    fn wgsl(&self) -> &'static str {
+        match self.layers {
+            1 => concat!(include_str!("spsm.wgsl"), include_str!("spsm/silhouette.wgsl")),
+            _ => concat!(include_str!("spsm.wgsl"), include_str!("spsm/centres.wgsl")),
+        }
+    }
+}
 
 impl Technique for Spsm {
     fn about(&self) -> About {
@@ -93,31 +134,60 @@ impl Technique for Spsm {
                 "triangles per texel: one that touches it, as published; with 2 also the one at its centre",
             ),
             Parameter::new(
+                "exponent",
+                "",
+                Field::Odd(&mut self.exponent, 1..=9),
+                "exponent of the levels of slopes, for the packings that keep corners: 5 as published, 1 for even levels",
+            ),
+            Parameter::new(
+                "neighbours",
+                "texels",
+                Field::Odd(&mut self.neighbours, 3..=5),
+                "side of the square whose triangles may shadow a receiver: 3 as published",
+            ),
+            Parameter::new(
+                "uncertain",
+                "",
+                Field::Choice(&mut self.uncertain),
+                "receivers for which no triangle is certain: by the silhouette or, with 2 layers, centres; or lit",
+            ),
+            Parameter::new(
                 "samples",
                 "",
                 Field::Count(&mut self.samples, 1..=4),
-                "positions along one side of a pixel at which shadows are asked: corners, and where they differ all",
+                "positions along one side of a pixel at which shadows are asked, of one silhouette with 1 layer",
             ),
         ]
     }
     fn describe(&self, _: &Capabilities) -> Result<Description, Unsupported> {
         let caster =
             CasterStorage::NearestTriangle(&[Coverage::Touched, Coverage::Centre][..self.layers.min(2) as usize]);
+        let mut constants = vec![
+            Constant::Count("spsm_layers", self.layers),
+            Constant::Count("spsm_samples", self.samples),
+            Constant::Count("spsm_neighbours", self.neighbours),
+            Constant::Count("spsm_recovers", u32::from(self.uncertain == Uncertain::Recovered)),
+        ];
+        if self.packing != Packing::Edges {
+            constants.push(Constant::Number("quantizer_exponent", self.exponent as f32));
+        }
         Ok(Description {
             slots: self.packing.slots(),
-            constants: vec![
-                Constant::Count("spsm_layers", self.layers),
-                Constant::Count("spsm_samples", self.samples),
-            ],
+            constants,
             classes: &CLASSES,
-            // Its own and nine texels per layer; the centres, or with one layer each step of the silhouette,
+            // Its own and those around it per layer; the centres, or with one layer each step of the silhouette,
             // take nine more.
-            fetches: 1 + 9 * self.layers,
-            ..Description::triangles(self.about(), include_str!("spsm.wgsl"), caster)
+            fetches: 1 + self.neighbours * self.neighbours * self.layers,
+            ..Description::triangles(self.about(), self.wgsl(), caster)
         })
     }
     fn variants(&self) -> Vec<&'static str> {
-        vec!["packing=map,layers=1", "packing=texel,samples=2"]
+        vec![
+            "packing=map,layers=1",
+            "packing=texel,samples=2",
+            "packing=map,layers=1,exponent=1",
+            "packing=edges,layers=1,neighbours=5",
+        ]
     }
     fn clone_box(&self) -> Box<dyn Technique> {
         Box::new(*self)
@@ -127,17 +197,17 @@ impl Technique for Spsm {
 /// The paper's steps in f64.
 #[doc(hidden)]
 pub mod reference {
-    /// Q of Eq. 3 with n = 5, before rounding: 0 to 254.
+    /// Q of Eq. 3, before rounding: 0 to 254.
     #[must_use]
-    pub fn quantize(slope: f64) -> f64 {
-        127.0 * (1.0 + (std::f64::consts::FRAC_2_PI * slope.atan()).powi(5))
+    pub fn quantize(slope: f64, exponent: i32) -> f64 {
+        127.0 * (1.0 + (std::f64::consts::FRAC_2_PI * slope.atan()).powi(exponent))
     }
 
     /// The slope of a level, Eq. 4 with the signed root.
     #[must_use]
-    pub fn dequantize(level: f64) -> f64 {
+    pub fn dequantize(level: f64, exponent: i32) -> f64 {
         let power = level / 127.0 - 1.0;
-        (std::f64::consts::FRAC_PI_2 * power.signum() * power.abs().powf(0.2)).tan()
+        (std::f64::consts::FRAC_PI_2 * power.signum() * power.abs().powf(1.0 / f64::from(exponent))).tan()
     }
 
     /// Twice the area of (a, b, c).
@@ -228,20 +298,31 @@ pub mod reference {
 mod tests {
     use super::reference::{dequantize, quantize, tangents, weight};
 
-    /// Degrees from one level to the next around a slope, with an exponent n as in Eq. 3.
-    fn resolution(degrees: f64) -> f64 {
-        let level = quantize(degrees.to_radians().tan());
-        (dequantize(level + 0.5).atan() - dequantize(level - 0.5).atan()).to_degrees()
+    /// Degrees from one level to the next around a slope.
+    fn resolution(degrees: f64, exponent: i32) -> f64 {
+        let level = quantize(degrees.to_radians().tan(), exponent);
+        let angle = |level: f64| dequantize(level, exponent).atan().to_degrees();
+        angle(level + 0.5) - angle(level - 0.5)
+    }
+
+    /// The paper says 0.17° at 80°, a fourth of what equally distant levels have [§3.4]. By its Eq. 3 it is 0.227°, less
+    /// than a third, and 0.17° only at 86°.
+    #[test]
+    fn steep_slopes_have_finer_levels() {
+        let near = |degrees, exponent, expected: f64| (resolution(degrees, exponent) - expected).abs() < 5e-4;
+        assert!(near(80.0, 1, 0.7087) && near(40.0, 1, 0.7087), "{}", resolution(80.0, 1));
+        assert!(near(80.0, 5, 0.2271), "{}", resolution(80.0, 5));
+        assert!(near(86.0, 5, 0.1700), "{}", resolution(86.0, 5));
+        assert!(resolution(40.0, 5) > resolution(40.0, 1));
+        for (level, exponent) in (1..254).flat_map(|level| [1, 3, 5, 9].map(|exponent| (f64::from(level), exponent))) {
+            assert!((quantize(dequantize(level, exponent), exponent) - level).abs() < 1e-6);
+        }
     }
 
     #[test]
-    fn steep_slopes_have_the_published_resolution() {
-        assert!((resolution(80.0) - 0.17).abs() < 0.06, "{}", resolution(80.0));
-        assert!(resolution(80.0) < 0.71 / 3.0, "linear levels are 0.71° apart");
-        assert!(resolution(40.0) > resolution(80.0));
-        for level in 1..254 {
-            assert!((quantize(dequantize(f64::from(level))) - f64::from(level)).abs() < 1e-6);
-        }
+    fn specs_name_what_was_published() {
+        let spec = crate::technique::spec(&super::Spsm::PUBLISHED);
+        assert_eq!(spec, "spsm.packing=map,layers=1");
     }
 
     #[test]

@@ -114,14 +114,14 @@ pub(crate) fn slopes_are_quantised(gpu: &Gpu) {
         put(0u, f32(level.x));
         put(1u, quantizer_decode(vec2f(level)).x);";
     let found = run::<2>(gpu, &functions(gpu, spsm::Packing::Map), body, &rows);
-    let level = |scale: f64| move |r: &[f64; INPUTS]| ([spsm::reference::quantize(scale * r[0])], 0.51);
+    let level = |scale: f64| move |r: &[f64; INPUTS]| ([spsm::reference::quantize(scale * r[0], 5)], 0.51);
     compare(&rows, &found, level(1.0)).unwrap();
     compare(&rows, &found, level(-1.0)).unwrap_err();
     // Half a level either way, and the driver's arc tangent.
     let decoded = |r: &[f64; INPUTS]| {
-        let exact = spsm::reference::quantize(r[0]).round();
-        let slope = spsm::reference::dequantize(exact);
-        let step = spsm::reference::dequantize((exact + 1.0).min(253.9)) - slope;
+        let exact = spsm::reference::quantize(r[0], 5).round();
+        let slope = spsm::reference::dequantize(exact, 5);
+        let step = spsm::reference::dequantize((exact + 1.0).min(253.9), 5) - slope;
         ([slope], 1e-3 + 0.02 * slope.abs() + if (1.0..=253.0).contains(&exact) { step.abs() } else { 1e3 })
     };
     compare_from(1, &rows, &found, decoded).unwrap();
@@ -219,7 +219,7 @@ pub(crate) fn spsm_tangents(gpu: &Gpu) {
         put(0u, f32(entry & 65535u));
         put(1u, f32(entry >> 16u));
         put2(2u, vec2f(spsm_neighbour(u32(take(0u)) % 8u)));";
-    let found = run::<4>(gpu, &functions(gpu, spsm::Packing::Edges), body, &rows);
+    let found = run::<4>(gpu, &functions_of(gpu, &Spsm::PUBLISHED), body, &rows);
     let entry = |shift: u32| {
         move |r: &[f64; INPUTS]| {
             let pattern = (r[0] as u32 + shift) % 256;
