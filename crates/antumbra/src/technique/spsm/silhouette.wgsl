@@ -1,6 +1,7 @@
 
-/// Slopes of lines that corners are on or below: the gentle and the steep ones.
+/// Slopes of lines that corners are on or below: the gentle ones.
 const spsm_gentle: vec4f = vec4f(-0.4, -0.1, 0.1, 0.4);
+/// The steep ones.
 const spsm_steep: vec4f = vec4f(-3.0, -1.0, 1.0, 3.0);
 /// Height of a silhouette of which nothing is known.
 const spsm_nowhere: f32 = -1e9;
