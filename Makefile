@@ -1,6 +1,7 @@
 # make demo    compare all techniques on the fence scene and say where the report is
 # make test    everything that must hold before a change lands
 # make bench   times on the fence scene
+# make bench-cpu   what the processor does: instructions and allocations; needs valgrind
 # make docs    the documents with tables, from their templates and docs/results
 # make results measures anew what docs/results holds of this machine; an hour in which it does nothing else
 # make proof   a technique and a store of somebody else's keep the laws; part of `make test`
@@ -8,7 +9,7 @@
 # make msrv    the library with the lowest compiler that it promises, without features and with all
 # make portability   every shader through a browser's compiler, pictures and laws on a second driver; needs Node
 
-.PHONY: demo test proof bench docs results setup fmt clippy doc check-wasm portability msrv deny golden
+.PHONY: demo test proof bench bench-cpu docs results setup fmt clippy doc check-wasm portability msrv deny golden
 
 CARGO ?= cargo
 export RUSTDOCFLAGS = -D warnings
@@ -31,6 +32,10 @@ bench: setup
 	$(CARGO) run --release --bin antumbra -- bench fence --kernel 7 \
 		--techniques hard pcf vsm esm csm.terms=4 csm
 
+bench-cpu: setup
+	@valgrind --version >/dev/null || { echo "bench-cpu: valgrind is needed (apt-get install valgrind)"; exit 1; }
+	$(CARGO) bench --profile release -p antumbra-lab --bench cpu
+
 docs:
 	$(CARGO) run --release -p antumbra-docs
 
@@ -43,6 +48,7 @@ results: setup
 		pcf.taps=nearest pcf.taps=bilinear pcf.taps=merged esm.classifier=none esm.classifier=zmax spsm.layers=1 \
 		esm.kernel=31 esm.sampling=summed vsm.sampling=summed csm.terms=4,sampling=summed
 	$(KEEP) start-up env MESA_SHADER_CACHE_DISABLE=true $(PROGRAM) bench fence --rounds 1 --start-up --json
+	$(KEEP) cpu $(CARGO) bench --quiet --profile release -p antumbra-lab --bench cpu -- --json
 	$(MAKE) docs
 
 setup:
