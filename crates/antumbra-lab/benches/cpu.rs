@@ -1,15 +1,14 @@
-//! What the processor does: instructions and allocations, counted by valgrind, so that they are the same on every
-//! run but for what drivers and maps with random seeds add. `make bench-cpu` prints them, `-- --json` as a
-//! result file wants them.
+//! What the processor does: instructions, counted by valgrind, and allocations. Both are the same on every run, but
+//! for what drivers and hashes with random seeds add. `make bench-cpu` prints them; with `--json` as a table.
 //!
-//! Each case runs in a process of its own under callgrind, which counts only inside [`measured`]: all threads' work
-//! of one call, wgpu's share included, after a first call that does not count where later ones are cheaper.
+//! Each case runs in a process of its own under callgrind, which counts only inside [`measured`]: one call on its
+//! thread, wgpu's share included.
 
 #![allow(clippy::unwrap_used, reason = "benchmarks fail by panicking")]
 
 use antumbra::{
-    Bounds, CameraFit, Capabilities, Cascades, Light, Options, Shader, ShaderText, ShadowMap, Size, View,
-    technique,
+    Bounds, CameraFit, Capabilities, Cascades, Light, Options, Shader, ShaderText, ShadowMap, Size,
+    Unsupported, View, technique,
 };
 use antumbra_scene::procedural;
 use antumbra_truth::Tracer;
@@ -51,7 +50,7 @@ const CASES: [&str; 25] = [
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     if let Some(case) = arguments.iter().position(|a| a == "--case") {
-        println!("{}", run(&arguments[case + 1]));
+        run(&arguments[case + 1]);
         return ExitCode::SUCCESS;
     }
     let counts: Result<Vec<Count>, String> = CASES.iter().map(|case| count(case)).collect();
@@ -66,27 +65,51 @@ fn main() -> ExitCode {
     ExitCode::SUCCESS
 }
 
-/// The only function that is counted.
+/// The only function that callgrind counts.
 #[inline(never)]
 fn measured<T>(work: impl FnOnce() -> T) -> T {
     black_box(work())
 }
 
-/// Runs a case; lines of WGSL that it put together, if it did.
-fn run(case: &str) -> usize {
+/// Calls `work` three times: the first time does not count, the second time instructions are, the third time
+/// allocations, which are printed.
+fn counted<T, E: std::fmt::Debug>(mut work: impl FnMut() -> Result<T, E>) {
+    let mut work = || drop(black_box(work().unwrap()));
+    work();
+    measured(&mut work);
+    println!("{}", allocation_counter::measure(work).count_total);
+}
+
+/// Runs a case.
+fn run(case: &str) {
     let words: Vec<&str> = case.split([' ', ',']).collect();
     let views = if case.contains('4') { 4 } else { 1 };
     match words[0] {
-        "prepare" => prepare(words[1], views),
-        "encode" => encode(words[1], views),
-        "fit" => fit(case, views),
-        "compose" => return compose(words[1]),
+        "prepare" => {
+            let (gpu, mut map, views) = map(words[1], views);
+            counted(|| map.prepare(&gpu.queue, &views));
+        }
+        "encode" => {
+            let (gpu, mut map, views) = map(words[1], views);
+            map.prepare(&gpu.queue, &views).unwrap();
+            let encoder = |_| gpu.device.create_command_encoder(&Default::default());
+            let mut encoders = [0; 3].map(encoder).into_iter();
+            let mut used = Vec::with_capacity(3);
+            counted(|| {
+                used.extend(encoders.next());
+                map.encode(used.last_mut().unwrap(), |_| ())
+            });
+        }
+        "fit" => {
+            let (light, fit) = (if case.contains("spot") { spot() } else { sun() }, camera_fit());
+            counted(|| light.views(&fit, Cascades::new(views)));
+        }
+        "compose" => counted(|| shaders(words[1])),
         _ => {
             let geometry = procedural::by_name(words[4]).unwrap().scene(1).flatten();
-            measured(|| Tracer::new(&geometry)).unwrap();
+            counted(|| Tracer::new(&geometry));
         }
     }
-    0
 }
 
 fn map(name: &str, views: u32) -> (&'static antumbra_testing::Gpu, ShadowMap, Vec<View>) {
@@ -97,29 +120,8 @@ fn map(name: &str, views: u32) -> (&'static antumbra_testing::Gpu, ShadowMap, Ve
     (gpu, map, sun().views(&camera_fit(), Cascades::new(views)).unwrap())
 }
 
-fn prepare(name: &str, views: u32) {
-    let (gpu, mut map, views) = map(name, views);
-    map.prepare(&gpu.queue, &views).unwrap();
-    measured(|| map.prepare(&gpu.queue, &views)).unwrap();
-}
-
-fn encode(name: &str, views: u32) {
-    let (gpu, mut map, views) = map(name, views);
-    map.prepare(&gpu.queue, &views).unwrap();
-    let [mut first, mut second] = [0; 2].map(|_| gpu.device.create_command_encoder(&Default::default()));
-    map.encode(&mut first, |_| ()).unwrap();
-    measured(|| map.encode(&mut second, |_| ())).unwrap();
-}
-
-fn fit(case: &str, views: u32) {
-    let cascades = Cascades::new(views);
-    if case.contains("spot") {
-        let (position, direction) = (Vec3::new(0.0, 20.0, 0.0), Vec3::NEG_Y);
-        let spot = Light::Spot { position, direction, outer_angle: 0.6 };
-        measured(|| spot.views(&camera_fit(), cascades)).unwrap();
-    } else {
-        measured(|| sun().views(&camera_fit(), cascades)).unwrap();
-    }
+fn spot() -> Light {
+    Light::Spot { position: Vec3::new(0.0, 20.0, 0.0), direction: Vec3::NEG_Y, outer_angle: 0.6 }
 }
 
 fn sun() -> Light {
@@ -135,15 +137,12 @@ fn camera_fit() -> CameraFit {
 }
 
 /// All shaders of a technique, the receiver's too.
-fn compose(name: &str) -> usize {
+fn shaders(name: &str) -> Result<Vec<String>, Unsupported> {
     let technique = technique::parse(name).unwrap();
     let (device, options) = (Capabilities::full(), Options::from(Size::square(256)));
-    let (shaders, receiver) = measured(|| {
-        let shaders = Shader::all(technique.as_ref(), &device, &options, None).unwrap();
-        (shaders, ShaderText::receiver(technique.as_ref(), &device, &options, 1).unwrap())
-    });
-    let texts = shaders.iter().map(|shader| shader.text.lines().count());
-    texts.sum::<usize>() + receiver.text().lines().count()
+    let shaders = Shader::all(technique.as_ref(), &device, &options, None)?.into_iter().map(|s| s.text);
+    let receiver = ShaderText::receiver(technique.as_ref(), &device, &options, 1)?.text();
+    Ok(shaders.chain([receiver]).collect())
 }
 
 /// What was counted of one case.
@@ -151,13 +150,14 @@ struct Count {
     case: &'static str,
     instructions: u64,
     allocations: u64,
-    lines: u64,
+    /// Lines of WGSL that were put together.
+    lines: Option<usize>,
 }
 
 impl Count {
     fn print(&self) {
         let Self { case, instructions, allocations, lines } = self;
-        let lines = if *lines > 0 { format!("{lines:6} lines") } else { String::new() };
+        let lines = lines.map(|lines| format!("{lines:6} lines")).unwrap_or_default();
         println!("{case:28} {instructions:12} instructions {allocations:7} allocations{lines}");
     }
 }
@@ -186,35 +186,16 @@ fn count(case: &'static str) -> Result<Count, String> {
     if instructions == 0 {
         return Err(format!("{case}: valgrind counted nothing: is the program stripped?"));
     }
-    let lines = String::from_utf8_lossy(&output.stdout).trim().parse().unwrap_or(0);
-    Ok(Count { case, instructions, allocations: allocations(&profile), lines })
-}
-
-/// Calls of the allocator in a profile: `cfn=` names who is called, by number after the first time, and
-/// `calls=` says how often.
-fn allocations(profile: &str) -> u64 {
-    const ALLOCATORS: [&str; 5] = ["malloc", "calloc", "realloc", "posix_memalign", "aligned_alloc"];
-    let mut ids = std::collections::HashSet::new();
-    let (mut count, mut allocates) = (0, false);
-    for line in profile.lines() {
-        if let Some(name) = line.strip_prefix("fn=").or_else(|| line.strip_prefix("cfn=")) {
-            let (id, name) = name.split_once(' ').unwrap_or((name, ""));
-            if ALLOCATORS.contains(&name) {
-                ids.insert(id);
-            }
-            allocates = line.starts_with("cfn=") && ids.contains(id);
-        } else if let Some(calls) = line.strip_prefix("calls=").filter(|_| allocates) {
-            count += calls.split(' ').next().and_then(|n| n.parse::<u64>().ok()).unwrap_or(0);
-        }
-    }
-    count
+    let composed =
+        case.strip_prefix("compose ").map(shaders).transpose().map_err(|error| error.to_string())?;
+    let lines = composed.map(|texts| texts.iter().map(|text| text.lines().count()).sum());
+    let allocations = String::from_utf8_lossy(&output.stdout).trim().parse();
+    let allocations = allocations.map_err(|error| format!("{case}: allocations: {error}"))?;
+    Ok(Count { case, instructions, allocations, lines })
 }
 
 fn print_json(counts: &[Count]) {
-    let row = |count: &Count| {
-        let lines = (count.lines > 0).then_some(count.lines);
-        serde_json::json!([count.case, count.instructions, count.allocations, lines])
-    };
+    let row = |c: &Count| serde_json::json!([c.case, c.instructions, c.allocations, c.lines]);
     let rows: Vec<_> = counts.iter().map(row).collect();
     let table = serde_json::json!({ "schema": "antumbra-table/1", "key": "what",
         "columns": ["instructions", "allocations", "lines of WGSL"], "rows": rows });
