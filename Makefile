@@ -47,6 +47,7 @@ results: setup
 	$(KEEP) fence $(PROGRAM) bench fence --kernel 7 --rounds 9 --json --techniques all csm.terms=4 \
 		pcf.taps=nearest pcf.taps=bilinear pcf.taps=merged esm.classifier=none esm.classifier=zmax spsm.layers=1 \
 		esm.kernel=31 esm.sampling=summed vsm.sampling=summed csm.terms=4,sampling=summed
+	$(KEEP) demo $(PROGRAM) compare fence --output target/demo --json
 	$(KEEP) start-up env MESA_SHADER_CACHE_DISABLE=true $(PROGRAM) bench fence --rounds 1 --start-up --json
 	$(KEEP) cpu $(CARGO) bench --quiet --profile release -p antumbra-lab --bench cpu -- --json
 	$(MAKE) docs

@@ -1,6 +1,6 @@
 //! The files that documents are made of and are.
 
-use crate::{Record, Source, fill};
+use crate::{Record, Source, fill, refill};
 use anyhow::{Context, Result, bail};
 use serde_json::{Value, json};
 use std::{
@@ -70,7 +70,7 @@ pub fn documents(docs: &Path) -> Result<Vec<(PathBuf, PathBuf)>> {
     Ok(all.into_iter().map(|path| (path.clone(), path.with_extension(""))).collect())
 }
 
-/// Each document's path with what it is to hold.
+/// Each document's path with what it is to hold: those with templates in `docs`, and the README beside that.
 ///
 /// # Errors
 /// As [`Results::read`] and [`fill`].
@@ -80,7 +80,12 @@ pub fn fill_all(docs: &Path) -> Result<Vec<(PathBuf, String)>> {
         let text = fs::read_to_string(&template).with_context(|| template.display().to_string())?;
         Ok((document, fill(&text, &results).with_context(|| template.display().to_string())?))
     });
-    made.collect()
+    let mut made: Vec<(PathBuf, String)> = made.collect::<Result<_>>()?;
+    let readme = docs.join("../README.md");
+    let text = fs::read_to_string(&readme).with_context(|| readme.display().to_string())?;
+    let text = refill(&text, &results).with_context(|| readme.display().to_string())?;
+    made.push((readme, text));
+    Ok(made)
 }
 
 /// Runs a command and keeps the JSON that it prints as the result file `name` of a folder.

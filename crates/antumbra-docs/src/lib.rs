@@ -10,6 +10,8 @@
 //!   file or `FILE | ROW | COLUMN`, and `A - B` for a difference.
 //! - `{{source FILE}}`: where numbers come from whose table a document does not show.
 //!
+//! A document without a template of its own (the README) may have parts that carry theirs in a comment.
+//!
 //! FORMAT is `.N`, N decimals, or `.N%`, N decimals in percent; FILE is the file's name without its end, with
 //! `:part` behind if the file holds several tables. A document that takes a number from a file without saying
 //! where it comes from is an error.
@@ -20,4 +22,4 @@ mod template;
 
 pub use files::{Results, documents, fill_all, keep};
 pub use record::{Cell, Record, Row, Source};
-pub use template::{fill, measured_numbers};
+pub use template::{fill, measured_numbers, refill};

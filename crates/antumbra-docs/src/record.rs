@@ -7,6 +7,7 @@ use std::{collections::BTreeMap, fmt};
 
 mod bench;
 mod bias;
+mod compare;
 
 /// Where numbers come from.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -100,6 +101,7 @@ impl Record {
             "antumbra-table/1" => vec![table(result)?],
             "antumbra-bench/1" => vec![bench::table(result)?],
             "antumbra-bias/1" => bias::tables(result)?,
+            "antumbra-results/1" => compare::tables(result)?,
             other => bail!("schema {other:?} is none that documents are made of"),
         };
         let record = |(part, key, rows)| (part, Self { source: source.clone(), key, rows });

@@ -25,6 +25,29 @@ pub fn fill(template: &str, results: &Results) -> Result<String> {
     Ok(document)
 }
 
+/// Begins a part of a document that carries its own template, in a comment of which this is the first line.
+const BEGIN: &str = "<!-- made by make docs of:";
+/// Ends it.
+const END: &str = "<!-- end of what is made -->";
+
+/// A document with parts that carry their templates: below each comment what its lines give, up to the next
+/// end.
+///
+/// # Errors
+/// As [`fill`]; a comment or a part that does not end.
+pub fn refill(document: &str, results: &Results) -> Result<String> {
+    let mut text = String::with_capacity(document.len());
+    let mut rest = document;
+    while let Some((before, after)) = rest.split_once(BEGIN) {
+        let (template, after) = after.split_once("\n-->\n").context("a comment without -->")?;
+        let (_, after) = after.split_once(END).with_context(|| format!("no {END}"))?;
+        let made = fill(template.trim_start_matches('\n'), results)?;
+        text.push_str(&format!("{before}{BEGIN}{template}\n-->\n\n{made}\n{END}"));
+        rest = after;
+    }
+    Ok(text + rest)
+}
+
 struct Filler<'r> {
     results: &'r Results,
     /// Files whose numbers stand in the document.

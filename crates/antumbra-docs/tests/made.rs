@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
 
-use antumbra_docs::{Cell, Record, Results, documents, fill, fill_all, measured_numbers};
+use antumbra_docs::{Cell, Record, Results, documents, fill, fill_all, measured_numbers, refill};
 use std::{
     fs,
     path::{Path, PathBuf},
@@ -36,8 +36,10 @@ fn every_result_shows_in_a_document() {
         .iter()
         .map(|(template, _)| fs::read_to_string(template).unwrap())
         .collect();
+    let readme = fs::read_to_string(docs().join("../README.md")).unwrap();
     let all = |results: &Results| -> Vec<String> {
-        templates.iter().map(|template| fill(template, results).unwrap()).collect()
+        let readme = refill(&readme, results).unwrap();
+        templates.iter().map(|template| fill(template, results).unwrap()).chain([readme]).collect()
     };
     let usual = all(&results());
     for name in results().names() {
@@ -118,6 +120,15 @@ fn directives_give_numbers_tables_and_sources() {
     assert_eq!(fill("{{table a .1 | cast | word}}").unwrap(), table);
     let text = "{{source a}} {{a | esm | cast / hard | cast | .2}}, {{a | hard | cast - a | esm | cast | .0}}, {{a | esm | cast | .0%}}";
     assert_eq!(fill(text).unwrap(), format!("{from} 1.50, -1, 300 %\n"));
+    let part = |old: &str| {
+        format!(
+            "x\n<!-- made by make docs of:\n{{{{table a .1 | cast | word}}}}\n-->\n{old}<!-- end of what is made -->\ny\n"
+        )
+    };
+    let made = refill(&part("old\n"), &results).unwrap();
+    assert_eq!(made, part(&format!("\n{table}\n")));
+    assert_eq!(refill(&made, &results).unwrap(), made);
+    assert!(refill("<!-- made by make docs of:\n-->\n", &results).is_err());
     for (template, words) in [
         ("{{a | esm | cast | .1}}", "add {{source a}}"),
         ("{{b | esm | cast | .1}}", "no result file \"b\"; there are a"),
