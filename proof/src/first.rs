@@ -1,6 +1,6 @@
 //! A store: of each texel the first triangle.
 
-use antumbra::store::{Array, Element, Site, Step, Store};
+use antumbra::store::{Array, Element, Owner, Site, Step, Store};
 
 /// A k-buffer that keeps one triangle.
 #[derive(Debug)]
@@ -16,7 +16,7 @@ impl Store for First {
             title: "keys",
             element: Element::Word,
             length: site.texels(),
-            per_view: true,
+            owner: Owner::Layer,
             cleared: true,
             looked_up: true,
         }]

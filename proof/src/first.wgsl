@@ -20,8 +20,8 @@ fn store_depth(in: CasterTriangle, at: vec2f) -> f32 {
         return;
     }
     let texel = vec2u(in.position.xy);
-    let size = vec2u(caster_view.size);
-    let i = (caster_step.view * size.y + texel.y) * size.x + texel.x;
+    let size = caster_view.layer_size;
+    let i = (caster_view.layer * size.y + texel.y) * size.x + texel.x;
     let depth = in.depths.x + dot(in.slope, touch.centre);
     first_keys_max(i, key_of(false, depth, in.id, caster_step.words.x));
     vertices_keep_all(in);

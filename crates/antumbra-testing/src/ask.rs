@@ -16,9 +16,9 @@ mod maps;
 mod question;
 mod read;
 
-pub use depth::{depth_layers, depth_texture};
+pub use depth::{Painter, depth_layers, depth_texture};
 pub use maps::{caster_buffers, caster_mesh, shadow_map, shadow_map_of};
-pub use question::{compute, visibility};
+pub use question::{compute, read_rows, visibility};
 pub use read::{bytes_of, floats, texels};
 
 /// A point to be asked about.
@@ -71,6 +71,11 @@ fn kept(gpu: &Gpu) -> Kept {
     };
     let shared = crate::gpu().is_some_and(|shared| std::ptr::eq(shared, gpu));
     if shared { SHARED.get_or_init(make).clone() } else { make() }
+}
+
+/// Pipelines that all maps share.
+pub fn pipelines(gpu: &Gpu) -> Pipelines {
+    kept(gpu).pipelines
 }
 
 /// Reproducible random numbers (xorshift).

@@ -7,7 +7,7 @@ mod modules;
 use modules::{Graph, graph, names};
 
 /// The modules of `crates/antumbra/src`, the lowest first. Each names those before it alone.
-const ROOMS: [&str; 19] = [
+const ROOMS: [&str; 20] = [
     "error",
     "aabb",
     "parameter",
@@ -15,6 +15,7 @@ const ROOMS: [&str; 19] = [
     "capacity",
     "camera",
     "light",
+    "tile",
     "kernel",
     "table",
     "bias",

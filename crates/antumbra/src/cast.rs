@@ -11,6 +11,7 @@ use crate::{
     light::View,
     map::{MemoryItem, Options, Pipelines, Probe, Textures},
     shader::{Composition, Shader},
+    tile::Tile,
 };
 use std::fmt::Debug;
 use wgpu::{BindGroupLayout, BindingResource, BindingType, Buffer, CommandEncoder, RenderPipeline};
@@ -38,12 +39,12 @@ pub use pass::CasterPass;
 pub(crate) use pass::Drawn;
 #[cfg(feature = "store")]
 pub use {
-    arrays::{Array, Element, Image},
+    arrays::{Array, Element, Image, Owner},
     store::{OwnStore, Site, Step, Store},
 };
 #[cfg(not(feature = "store"))]
 use {
-    arrays::{Array, Element, Image},
+    arrays::{Array, Element, Image, Owner},
     store::{Site, Step, Store},
 };
 
@@ -85,8 +86,8 @@ pub(crate) trait Plan {
 
 /// A store on the GPU.
 pub(crate) trait Cast: Debug + wgpu::WasmNotSendSync {
-    /// Takes this frame's views.
-    fn write(&self, _queue: &wgpu::Queue, _views: &[View]) {}
+    /// Takes this frame's views, and where they lie.
+    fn write(&self, _queue: &wgpu::Queue, _views: &[View], _tiles: &[Tile]) {}
     /// Has casters drawn for one view.
     fn encode(
         &self,
@@ -136,6 +137,19 @@ pub(crate) struct Seen<'a> {
     pub(crate) index: usize,
     /// What casters are placed by.
     pub(crate) from: &'a View,
+    /// Where the view lies.
+    pub(crate) tile: Tile,
+    /// Whether that may be a part of a layer.
+    pub(crate) tiled: bool,
+    /// Whether it is the first of the views in its layer.
+    pub(crate) first: bool,
+}
+
+impl Seen<'_> {
+    /// Number of the layer in which the view lies.
+    fn layer(&self) -> usize {
+        self.tile.layer as usize
+    }
 }
 
 /// What a technique needs that the device or its description lacks, and what to do.

@@ -147,6 +147,17 @@ pub enum Unsupported {
         /// Largest number.
         max: u32,
     },
+    /// No light.
+    #[error("a map for 0 lights is not possible; it has 1 at least: see Options::lights")]
+    Lights,
+    /// A technique whose WGSL takes each view for a layer.
+    #[error(
+        "{technique} cannot have views in tiles: its WGSL reads textures without tile_layer and what comes with it; name tile in its //! needs, or take a map without Options::tiled"
+    )]
+    Tiles {
+        /// Name of the technique.
+        technique: String,
+    },
     /// A feature or limit that the technique cannot do without.
     #[error("{technique} needs {what}, which this device lacks; {instead}")]
     Feature {

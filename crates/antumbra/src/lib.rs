@@ -177,12 +177,13 @@ mod precision;
 mod shader;
 mod table;
 pub mod technique;
+mod tile;
 
 /// How triangles are kept by id, for stores of one's own, which a technique names in
 /// [`CasterStorage::Own`](technique::CasterStorage::Own). Not settled: minor versions may change it.
 #[cfg(feature = "store")]
 pub mod store {
-    pub use crate::cast::{Array, Element, Image, OwnStore, Site, Step, Store};
+    pub use crate::cast::{Array, Element, Image, OwnStore, Owner, Site, Step, Store};
 }
 
 pub use glam;
@@ -205,3 +206,4 @@ pub use precision::Precision;
 pub use shader::{CASTER_WGSL, Shader, ShaderText};
 pub use table::Table;
 pub use technique::{Description, Technique, types::*};
+pub use tile::{Placed, Tile};

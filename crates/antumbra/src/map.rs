@@ -7,8 +7,8 @@ use crate::{
     describe::{Description, Technique},
     light::{Size, View},
     shader::{Composition, ShaderText},
+    tile::Tile,
 };
-use glam::Vec2;
 use std::sync::atomic::{AtomicU32, Ordering};
 use wgpu::TextureFormat;
 
@@ -23,6 +23,7 @@ mod explain;
 mod memory;
 mod options;
 mod pipelines;
+mod prepare;
 mod receiver;
 mod textures;
 mod uniforms;
@@ -30,10 +31,11 @@ mod uniforms;
 pub(crate) use answer::ask_now;
 pub use brought::Depth;
 use draw::Draw;
-pub(crate) use draw::compute_pass;
+pub(crate) use draw::{compute_pass, limit};
 pub use memory::{Lifetime, Memory, MemoryItem};
-pub use options::{NoProbe, Options, PrepareError, Probe};
+pub use options::{NoProbe, Options, Probe};
 pub use pipelines::Pipelines;
+pub use prepare::PrepareError;
 use receiver::Samplers;
 pub(crate) use textures::{Textures, written};
 use uniforms::Uniforms;
@@ -55,6 +57,7 @@ pub struct ShadowMap {
     options: Options,
     textures: Textures,
     uniforms: Uniforms,
+    /// Of each layer.
     draws: Vec<Vec<Draw>>,
     /// What the casters leave, beside depth and maps.
     cast: Box<dyn Cast>,
@@ -64,44 +67,15 @@ pub struct ShadowMap {
     layout: wgpu::BindGroupLayout,
     bind_group: wgpu::BindGroup,
     views: Vec<View>,
+    /// Where the views lie, and those of a frame that is not taken yet.
+    tiles: Vec<Tile>,
+    next_tiles: Vec<Tile>,
     /// One per view and caster pass.
     caster_views: Vec<View>,
 }
 
 impl ShadowMap {
-    /// Takes the light's views for this frame, nearest first; the first that contains a receiver
-    /// is the one that shades it. Without any everything is lit.
-    ///
-    /// Writes buffers through the queue: what is submitted next sees what was written last, so two cameras
-    /// or two lights in one submission take two maps.
-    ///
-    /// # Errors
-    /// [`PrepareError`], and then the previous views stay.
-    pub fn prepare(&mut self, queue: &wgpu::Queue, views: &[View]) -> Result<(), PrepareError> {
-        let max = self.options.views as usize;
-        if views.len() > max {
-            return Err(PrepareError::TooManyViews { given: views.len(), max });
-        }
-        let reversed = self.textures.is_reversed();
-        if let Some(view) = brought::contrary(views, reversed) {
-            return Err(PrepareError::Depth { view, reversed: !reversed });
-        }
-        if let Some(view) = views.iter().position(View::is_warped).filter(|_| !self.options.warped) {
-            return Err(PrepareError::Warped { view });
-        }
-        self.views.clear();
-        self.views.extend_from_slice(views);
-        self.caster_views.clear();
-        let jittered = |view: &View, offset: Vec2| view.jittered(self.options.size, offset);
-        let offsets = &self.composition.description.sample_offsets;
-        self.caster_views
-            .extend(views.iter().flat_map(|view| offsets.iter().map(move |o| jittered(view, *o))));
-        self.uniforms.write(queue, views);
-        self.cast.write(queue, views);
-        Ok(())
-    }
-
-    /// Two `u32` per view, usage `COPY_SRC`, for techniques whose storage is
+    /// Two `u32` per layer, which is a view's unless views are tiles, usage `COPY_SRC`, for techniques whose storage is
     /// [`CasterStorage::ABuffer`](crate::technique::CasterStorage::ABuffer): entries that the casters of the last
     /// [`encode`](Self::encode) needed, of the `width · height` times [`Capacity::triangles_per_texel`] that
     /// there is memory for; length of the longest list.
@@ -155,7 +129,9 @@ impl ShadowMap {
     /// the light, 0 to 1, that reaches a position in world space; 1 outside every view. `normal` is that
     /// of the facet, of unit length, either side, not interpolated or bumped; `ddx` and `ddy` are the change of
     /// position from this pixel to the next. What has no surface, such as fog, passes the direction
-    /// towards the light, and zeros.
+    /// towards the light, and zeros. Where the map has [room for several lights](Options::lights) the number of one comes
+    /// first: `shadow_visibility(light, position, normal, ddx, ddy)`; a light without views, or with a number that no light
+    /// has, lights everything.
     ///
     /// If it [asks about cut-outs](Self::asks_about_cutouts) the user's shader defines
     /// `shadow_covers(tag: u32, triangle: u32, weights: vec3f) -> bool`, with her own bindings: whether a
@@ -170,7 +146,7 @@ impl ShadowMap {
     /// [`wgsl`](Self::wgsl) for [`bind_group_entries`](Self::bind_group_entries) that begin at `@binding(first)`.
     #[must_use]
     pub fn wgsl_at(&self, group: u32, first: u32) -> ShaderText {
-        self.composition.receiver(self.plan().as_ref(), self.options.views, (group, first))
+        self.composition.receiver(self.plan().as_ref(), (group, first))
     }
 
     /// What its store is planned like.
@@ -201,7 +177,13 @@ impl ShadowMap {
         &self.composition.description
     }
 
-    /// Texels of each view.
+    /// Where the views of the last [`prepare`](Self::prepare) lie.
+    #[must_use]
+    pub fn tiles(&self) -> &[Tile] {
+        &self.tiles
+    }
+
+    /// Texels of each layer, and of each view that has one of its own.
     #[must_use]
     pub fn size(&self) -> Size {
         self.options.size
@@ -213,8 +195,8 @@ impl ShadowMap {
         self.description().margin_texels()
     }
 
-    /// Entry `index` of [`Description::maps`] as allocated, for debug views: view `v` starts at layer
-    /// `v · layers`. Usages `TEXTURE_BINDING` and `COPY_SRC`. `None` if the technique keeps fewer.
+    /// Entry `index` of [`Description::maps`] as allocated, for debug views: what lies in layer `l` of the map starts at
+    /// layer `l · layers`. Usages `TEXTURE_BINDING` and `COPY_SRC`. `None` if the technique keeps fewer.
     #[must_use]
     pub fn map_texture(&self, index: usize) -> Option<&wgpu::Texture> {
         self.textures.maps().get(index).map(|map| &map.texture)
@@ -239,6 +221,6 @@ impl ShadowMap {
     /// Which formats and paths were chosen on this device, one sentence each.
     #[must_use]
     pub fn explain(&self) -> Vec<String> {
-        explain::lines(self.description(), &self.capabilities, self.cast.explain())
+        explain::lines(self.description(), &self.capabilities, &self.options, self.cast.explain())
     }
 }

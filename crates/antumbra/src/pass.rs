@@ -1,6 +1,6 @@
 //! The pre-filter as a list of full-screen steps, planned on the CPU.
 //!
-//! A [`Step`] reads one texture and writes one or more layers; [`plan`] turns what a technique asks
+//! A [`FilterStep`] reads one texture and writes one or more layers; [`filter_steps`] turns what a technique asks
 //! for into steps. Nothing here knows a technique by name or touches a device.
 
 use crate::{
@@ -18,7 +18,7 @@ mod sum;
 
 /// Which texture a [`Place`] is in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub(crate) enum Slot {
+pub(crate) enum Holder {
     /// The casters' depth of the view.
     Casters,
     /// The depths of some of several caster passes of the view.
@@ -39,7 +39,7 @@ pub(crate) enum Slot {
 /// Where in a texture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) struct Place {
-    pub(crate) slot: Slot,
+    pub(crate) holder: Holder,
     pub(crate) layer: u32,
     pub(crate) mip: u32,
 }
@@ -47,18 +47,28 @@ pub(crate) struct Place {
 /// How a step covers its targets.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum Work {
-    /// A full-screen triangle; one colour attachment per target.
+    /// A triangle over all of the view; one colour attachment per target.
     Draw,
-    /// So many compute invocations, each a row or a column of one storage texture.
-    Lanes(u32),
+    /// Compute invocations, each a row or a column of the view in one storage texture.
+    Lanes(Axis),
 }
+
+/// What invocations of a compute step go along.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) enum Axis {
+    Rows,
+    Columns,
+}
+
+/// What steps know of the view that they are run for, beside converting ones.
+const UNIFORM: &str = include_str!("pass/uniform.wgsl");
 
 /// Invocations of a workgroup, as in the WGSL of compute steps.
 pub(crate) const WORKGROUP: u32 = 64;
 
 /// One pass over the texels. Steps that share shader text and formats share a pipeline.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Step {
+pub(crate) struct FilterStep {
     /// `convert`, `blur`, `mips` or `sum`: also the name under which it is timed.
     pub(crate) label: &'static str,
     /// A whole WGSL module with `vertex` and `fragment`, or with `compute`.
@@ -70,11 +80,11 @@ pub(crate) struct Step {
     pub(crate) targets: Vec<Place>,
 }
 
-impl Step {
+impl FilterStep {
     /// The caster pass that it follows, if not the last.
     pub(crate) fn cast(&self) -> Option<u32> {
-        match self.source.slot {
-            Slot::Casts { first, count, .. } => Some(first + count - 1),
+        match self.source.holder {
+            Holder::Casts { first, count, .. } => Some(first + count - 1),
             _ => None,
         }
     }
@@ -82,17 +92,17 @@ impl Step {
 
 /// A run of layers that one step can write.
 #[derive(Debug, Clone, Copy)]
-struct Run {
+struct Span {
     map: usize,
     first: u32,
     count: u32,
 }
 
-impl Run {
+impl Span {
     /// Those layers of the map.
     fn kept(self, mip: u32) -> impl Iterator<Item = Place> {
         (self.first..self.first + self.count).map(move |layer| Place {
-            slot: Slot::Map(self.map),
+            holder: Holder::Map(self.map),
             layer,
             mip,
         })
@@ -108,7 +118,7 @@ impl Run {
 
     /// The first layers of its scratch texture.
     fn scratch(self) -> impl Iterator<Item = Place> {
-        (0..self.count).map(move |layer| Place { slot: Slot::Scratch(self.map), layer, mip: 0 })
+        (0..self.count).map(move |layer| Place { holder: Holder::Scratch(self.map), layer, mip: 0 })
     }
 
     fn step(
@@ -117,9 +127,9 @@ impl Run {
         shader: String,
         from: Place,
         targets: impl Iterator<Item = Place>,
-    ) -> Step {
+    ) -> FilterStep {
         let targets = targets.take(self.count as usize).collect();
-        Step { label, shader, work: Work::Draw, source: from, source_layers: self.count, targets }
+        FilterStep { label, shader, work: Work::Draw, source: from, source_layers: self.count, targets }
     }
 }
 
@@ -149,10 +159,12 @@ pub(crate) fn scratch_layers(map: &Map, device: &Capabilities) -> u32 {
     map.passes.iter().map(needs).max().unwrap_or(0)
 }
 
-/// All steps between casting and lighting of one view.
-pub(crate) fn plan(composition: &Composition, device: &Capabilities, size: Size) -> Vec<Step> {
+/// All steps between casting and lighting of a view in one layer; where views are tiles, those that a view as large as
+/// a layer takes.
+pub(crate) fn filter_steps(composition: &Composition, device: &Capabilities, size: Size) -> Vec<FilterStep> {
     let mut steps = Vec::new();
-    let description = &composition.description;
+    let Composition { description, tiled, .. } = composition;
+    let tiled = *tiled;
     if description.storage != CasterStorage::Depth {
         return steps;
     }
@@ -160,41 +172,41 @@ pub(crate) fn plan(composition: &Composition, device: &Capabilities, size: Size)
     for (index, map) in description.maps.iter().enumerate() {
         let source = Source::new(composition, map);
         if casts > 1 {
-            let layer = |first| Run { map: index, first: first / 4, count: 1 };
+            let layer = |first| Span { map: index, first: first / 4, count: 1 };
             steps.extend((0..casts).step_by(4).map(|first| source.channels(first, casts, layer(first))));
             continue;
         }
         if let [Pass::Sum(table)] = map.passes.as_slice() {
-            steps.extend(sum::steps(&source, table, index, map.layers, size));
+            steps.extend(sum::steps(&source, table, index, map.layers, tiled));
             continue;
         }
         let together = together(map, device);
         for first in (0..map.layers).step_by(together as usize) {
-            let run = Run { map: index, first, count: together.min(map.layers - first) };
-            steps.extend(run_steps(&source, map, run, size));
+            let span = Span { map: index, first, count: together.min(map.layers - first) };
+            steps.extend(span_steps(&source, map, span, (size, tiled)));
         }
     }
     steps
 }
 
 /// Converts and filters a run of layers.
-fn run_steps(source: &Source, map: &Map, run: Run, size: Size) -> Vec<Step> {
+fn span_steps(source: &Source, map: &Map, span: Span, (size, tiled): (Size, bool)) -> Vec<FilterStep> {
     let mut steps = Vec::new();
     let mut passes = map.passes.iter().peekable();
     // Rows of a blur that comes first take encoded depths as they need them: two passes instead of
     // three, and no rounding in between.
     match passes.peek() {
         Some(Pass::Blur(kernel, combine)) if source.is_cheap() => {
-            steps.push(source.rows(kernel, *combine, run));
-            steps.extend(blur::columns(kernel, *combine, run));
+            steps.push(source.rows(kernel, *combine, span));
+            steps.extend(blur::columns(kernel, *combine, span, tiled));
             passes.next();
         }
-        _ => steps.push(source.plain(run)),
+        _ => steps.push(source.plain(span)),
     }
     for pass in passes {
         match pass {
-            Pass::Blur(kernel, combine) => steps.extend(blur::steps(kernel, *combine, run)),
-            Pass::Mips(combine) => steps.extend(mips::steps(*combine, run, mip_levels(size))),
+            Pass::Blur(kernel, combine) => steps.extend(blur::steps(kernel, *combine, span, tiled)),
+            Pass::Mips(combine) => steps.extend(mips::steps(*combine, span, mip_levels(size), tiled)),
             Pass::Sum(_) => {}
         }
     }
@@ -212,7 +224,7 @@ fn combine(how: Combine) -> String {
     }
 }
 
-/// Members of the fragment shader's output, one per layer of a run.
+/// Members of the fragment shader's output, one per layer of a span.
 fn targets(count: u32) -> String {
     (0..count).map(|i| format!("    @location({i}) layer_{i}: vec4f,\n")).collect()
 }

@@ -24,7 +24,7 @@ pub(crate) struct Other {
 /// It needs a file that does not exist.
 pub(crate) static NEEDY: Other =
     Other { needs: &["key", "keyhole"], wgsl: LazyLock::new(|| First.wgsl().into()) };
-static ONE_VIEW: Other = saying(|| First.wgsl().replace("caster_step.view *", "0u *"));
+static ONE_VIEW: Other = saying(|| First.wgsl().replace("caster_view.layer *", "0u *"));
 static NEIGHBOUR: Other =
     saying(|| First.wgsl().replace("texel.y) * size.x + texel.x", "texel.y) * size.x + texel.y"));
 static NOTHING: Other = saying(|| First.wgsl().replace("first_keys_max(", "// first_keys_max("));

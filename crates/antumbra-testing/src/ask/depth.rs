@@ -16,28 +16,71 @@ pub fn depth_layers(
     layers: u32,
     depth: impl Fn(u32, u32, u32) -> f32,
 ) -> wgpu::Texture {
-    let texels: Vec<f32> = (0..layers)
-        .flat_map(|layer| (0..size.height).map(move |y| (layer, y)))
-        .flat_map(|(layer, y)| (0..size.width).map(move |x| (layer, x, y)))
-        .map(|(layer, x, y)| depth(layer, x, y))
-        .collect();
-    let texture = |format, usage| texture(gpu, size, layers, format, usage);
     use wgpu::TextureUsages as Usage;
-    let source = texture(wgpu::TextureFormat::R32Float, Usage::TEXTURE_BINDING | Usage::COPY_DST);
-    let target =
-        texture(antumbra::DEPTH_FORMAT, Usage::TEXTURE_BINDING | Usage::RENDER_ATTACHMENT | Usage::COPY_SRC);
-    gpu.queue.write_texture(
-        source.as_image_copy(),
-        bytes_of(&texels),
-        wgpu::TexelCopyBufferLayout {
-            offset: 0,
-            bytes_per_row: Some(4 * size.width),
-            rows_per_image: Some(size.height),
-        },
-        source.size(),
-    );
-    draw(gpu, &source, &target);
+    let usage = Usage::TEXTURE_BINDING | Usage::RENDER_ATTACHMENT | Usage::COPY_SRC;
+    let target = texture(gpu, size, layers, antumbra::DEPTH_FORMAT, usage);
+    draw(gpu, &Painter::new(gpu, size, layers, depth), &target);
     target
+}
+
+/// Draws numbers as depth, each texel where it lies in the target.
+#[derive(Debug)]
+pub struct Painter {
+    pipeline: wgpu::RenderPipeline,
+    /// Of each layer of numbers.
+    groups: Vec<wgpu::BindGroup>,
+}
+
+impl Painter {
+    /// Of `depth(layer, x, y)`.
+    pub fn new(gpu: &Gpu, size: Size, layers: u32, depth: impl Fn(u32, u32, u32) -> f32) -> Self {
+        let texels: Vec<f32> = (0..layers)
+            .flat_map(|layer| (0..size.height).map(move |y| (layer, y)))
+            .flat_map(|(layer, y)| (0..size.width).map(move |x| (layer, x, y)))
+            .map(|(layer, x, y)| depth(layer, x, y))
+            .collect();
+        use wgpu::TextureUsages as Usage;
+        let usage = Usage::TEXTURE_BINDING | Usage::COPY_DST;
+        let source = texture(gpu, size, layers, wgpu::TextureFormat::R32Float, usage);
+        gpu.queue.write_texture(
+            source.as_image_copy(),
+            bytes_of(&texels),
+            wgpu::TexelCopyBufferLayout {
+                offset: 0,
+                bytes_per_row: Some(4 * size.width),
+                rows_per_image: Some(size.height),
+            },
+            source.size(),
+        );
+        let pipeline = kept(gpu).depth;
+        let group = |layer| {
+            gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: None,
+                layout: &pipeline.get_bind_group_layout(0),
+                entries: &[wgpu::BindGroupEntry {
+                    binding: 0,
+                    resource: wgpu::BindingResource::TextureView(&one(&source, layer)),
+                }],
+            })
+        };
+        Self { groups: (0..layers).map(group).collect(), pipeline }
+    }
+
+    /// Draws a layer.
+    pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>, layer: usize) {
+        pass.set_pipeline(&self.pipeline);
+        pass.set_bind_group(0, &self.groups[layer], &[]);
+        pass.draw(0..3, 0..1);
+    }
+}
+
+fn one(texture: &wgpu::Texture, layer: u32) -> wgpu::TextureView {
+    texture.create_view(&wgpu::TextureViewDescriptor {
+        dimension: Some(wgpu::TextureViewDimension::D2),
+        base_array_layer: layer,
+        array_layer_count: Some(1),
+        ..Default::default()
+    })
 }
 
 fn texture(
@@ -59,27 +102,10 @@ fn texture(
     })
 }
 
-/// Draws every layer of a texture of floats as depth.
-fn draw(gpu: &Gpu, source: &wgpu::Texture, target: &wgpu::Texture) {
-    let pipeline = kept(gpu).depth;
-    let one = |texture: &wgpu::Texture, layer| {
-        texture.create_view(&wgpu::TextureViewDescriptor {
-            dimension: Some(wgpu::TextureViewDimension::D2),
-            base_array_layer: layer,
-            array_layer_count: Some(1),
-            ..Default::default()
-        })
-    };
+/// Draws every layer of a texture.
+fn draw(gpu: &Gpu, painter: &Painter, target: &wgpu::Texture) {
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    for layer in 0..source.depth_or_array_layers() {
-        let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: None,
-            layout: &pipeline.get_bind_group_layout(0),
-            entries: &[wgpu::BindGroupEntry {
-                binding: 0,
-                resource: wgpu::BindingResource::TextureView(&one(source, layer)),
-            }],
-        });
+    for layer in 0..target.depth_or_array_layers() {
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("test depth"),
             color_attachments: &[],
@@ -95,9 +121,7 @@ fn draw(gpu: &Gpu, source: &wgpu::Texture, target: &wgpu::Texture) {
             occlusion_query_set: None,
             multiview_mask: None,
         });
-        pass.set_pipeline(&pipeline);
-        pass.set_bind_group(0, &group, &[]);
-        pass.draw(0..3, 0..1);
+        painter.draw(&mut pass, layer as usize);
     }
     gpu.queue.submit([encoder.finish()]);
 }

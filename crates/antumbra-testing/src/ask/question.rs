@@ -8,16 +8,7 @@ use std::sync::PoisonError;
 
 /// `shadow_visibility` at receivers.
 pub fn visibility(gpu: &Gpu, shadows: &ShadowMap, receivers: &[Receiver]) -> Vec<f32> {
-    let rows: Vec<[Vec4; 4]> = receivers
-        .iter()
-        .map(|r| {
-            let position = Vec3::new(r.uv.x * 2.0 - 1.0, 1.0 - r.uv.y * 2.0, r.depth);
-            let ddx = Vec4::new(2.0 * r.footprint.x, 0.0, 0.0, 0.0);
-            let ddy = Vec4::new(0.0, -2.0 * r.footprint.y, 0.0, 0.0);
-            [position.extend(0.0), ddx, ddy, r.normal.extend(0.0)]
-        })
-        .collect();
-    let rows: Vec<[f32; 16]> = rows.iter().map(|r| std::array::from_fn(|i| r[i / 4][i % 4])).collect();
+    let rows = read_rows(receivers, 0.0);
     let user = "
         struct Row { position: vec4f, ddx: vec4f, ddy: vec4f, normal: vec4f }
         @group(1) @binding(0) var<storage, read> rows: array<Row>;
@@ -28,6 +19,18 @@ pub fn visibility(gpu: &Gpu, shadows: &ShadowMap, receivers: &[Receiver]) -> Vec
             results[id.x] = shadow_visibility(row.position.xyz, row.normal.xyz, row.ddx.xyz, row.ddy.xyz);
         }";
     compute(gpu, shadows, user, bytes_of(rows.as_flattened()), receivers.len(), receivers.len())
+}
+
+/// Receivers as rows of a buffer: position and another number, its changes to the next pixels, normal.
+pub fn read_rows(receivers: &[Receiver], number: f32) -> Vec<[f32; 16]> {
+    let row = |r: &Receiver| {
+        let position = Vec3::new(r.uv.x * 2.0 - 1.0, 1.0 - r.uv.y * 2.0, r.depth);
+        let ddx = Vec4::new(2.0 * r.footprint.x, 0.0, 0.0, 0.0);
+        let ddy = Vec4::new(0.0, -2.0 * r.footprint.y, 0.0, 0.0);
+        let row = [position.extend(number), ddx, ddy, r.normal.extend(0.0)];
+        std::array::from_fn(|i| row[i / 4][i % 4])
+    };
+    receivers.iter().map(row).collect()
 }
 
 /// Runs `main` of a compute shader that may call everything in `shadows.wgsl(0)`: `input` at

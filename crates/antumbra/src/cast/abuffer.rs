@@ -3,7 +3,7 @@
 //!
 //! [`CasterStorage::ABuffer`]: crate::technique::CasterStorage::ABuffer
 
-use super::{Array, Element, Image, Site, Step, Store};
+use super::{Array, Element, Image, Owner, Site, Step, Store};
 
 /// Texels across and, at most, down of the image of ids, as in `abuffer/fill.wgsl.in`.
 const ROW: u32 = 2048;
@@ -16,7 +16,7 @@ const WORKGROUP: u32 = 64;
 #[derive(Debug)]
 pub(super) struct ABuffer;
 
-/// Entries of a view.
+/// Entries of a layer.
 fn entries(site: &Site<'_>) -> u32 {
     (site.texels() * u64::from(site.capacity.triangles_per_texel)).min(u64::from(u32::MAX)) as u32
 }
@@ -27,14 +27,14 @@ impl Store for ABuffer {
     }
 
     fn arrays(&self, site: &Site<'_>) -> Vec<Array> {
-        let word = |name, title, length, per_view| {
+        let word = |name, title, length, owner| {
             let element = Element::Word;
-            Array { name, title, element, length, per_view, cleared: true, looked_up: false }
+            Array { name, title, element, length, owner, cleared: true, looked_up: false }
         };
         vec![
-            word("abuffer_counts", "counts", site.texels(), false),
+            word("abuffer_counts", "counts", site.texels(), Owner::Shared),
             // Entries, longest list.
-            word("abuffer_totals", "totals", 2, true),
+            word("abuffer_totals", "totals", 2, Owner::Layer),
         ]
     }
 
@@ -55,7 +55,7 @@ impl Store for ABuffer {
         let scan = Step::Compute {
             label: "scan",
             wgsl: include_str!("abuffer/scan.wgsl.in"),
-            workgroups: site.texels().div_ceil(u64::from(SEGMENT * WORKGROUP)) as u32,
+            texels: SEGMENT * WORKGROUP,
             words: words(0),
         };
         vec![Step::Draw { words: words(0) }, scan, Step::Draw { words: words(1) }]

@@ -2,7 +2,7 @@
 
 #![cfg_attr(not(feature = "store"), allow(unreachable_pub, reason = "public with the feature alone"))]
 
-use super::split::Split;
+use super::{Site, split::Split};
 use std::fmt::Write;
 
 /// Numbers that casters leave, in as many buffers as bindings of the device need.
@@ -18,15 +18,25 @@ pub struct Array {
     pub title: &'static str,
     /// What it holds.
     pub element: Element,
-    /// Number of elements of one view.
+    /// Number of elements of one owner.
     pub length: u64,
-    /// Whether each view has elements of its own, one behind the other. Else views, which are drawn one
-    /// after the other, share them.
-    pub per_view: bool,
-    /// Whether a view's elements are filled with zeros before casters are drawn.
+    /// Whose they are.
+    pub owner: Owner,
+    /// Whether elements are filled with zeros before casters are drawn, once in a frame for each owner.
     pub cleared: bool,
     /// Whether lookups read it.
     pub looked_up: bool,
+}
+
+/// Who has elements of an [`Array`] of its own; those of several lie one behind the other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Owner {
+    /// Each view, with `caster_step.view`.
+    View,
+    /// Each layer, with `caster_view.layer`: views have one each unless they are [tiles](crate::Tile).
+    Layer,
+    /// Nobody: views, which are drawn one after the other, share them.
+    Shared,
 }
 
 /// An element of an [`Array`].
@@ -39,7 +49,7 @@ pub enum Element {
 }
 
 /// A texture of `u32` that is written in storage passes: `NAME_store(at: vec2u, layer: u32, value: u32)`,
-/// with the layers of one view; `NAME_size() -> vec2u`. Lookups call `NAME_load(view: u32, at: vec2u, layer:
+/// with the layers that it has for one layer of views; `NAME_size() -> vec2u`. Lookups call `NAME_load(view: u32, at: vec2u, layer:
 /// u32) -> u32`.
 #[derive(Debug, Clone)]
 pub struct Image {
@@ -49,7 +59,7 @@ pub struct Image {
     pub title: &'static str,
     /// Texels across and down.
     pub size: [u32; 2],
-    /// Layers of one view.
+    /// Layers for each layer of views.
     pub layers: u32,
 }
 
@@ -85,10 +95,15 @@ pub(super) fn called(name: &str, text: &str) -> bool {
 }
 
 impl Storage {
-    pub(super) fn new(arrays: Vec<Array>, images: Vec<Image>, views: u32, limits: &wgpu::Limits) -> Self {
+    pub(super) fn new(arrays: Vec<Array>, images: Vec<Image>, site: &Site<'_>) -> Self {
+        let limits = &site.device.limits;
         let max = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
         let split = |array: Array| {
-            let parts = if array.per_view { u64::from(views) } else { 1 };
+            let parts = match array.owner {
+                Owner::View => u64::from(site.views),
+                Owner::Layer => u64::from(site.layers),
+                Owner::Shared => 1,
+            };
             let split = Split::new(array.length * parts, array.element.bytes(), max);
             (array, split)
         };

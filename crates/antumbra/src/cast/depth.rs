@@ -39,7 +39,7 @@ impl Cast for DepthCast {
         probe: &mut dyn Probe,
         draw: &mut dyn FnMut(&mut CasterPass<'_>),
     ) {
-        let depth = (textures.caster_target(seen.view, seen.cast), StoreOp::Store);
+        let depth = (textures.caster_target(seen.layer(), seen.cast, seen.first), StoreOp::Store);
         let pass = pass::begin(encoder, None, depth, probe.pass("cast", seen.view));
         draw(&mut CasterPass::new(pass, seen, None));
     }

@@ -1,11 +1,11 @@
 //! Plans what stores that keep triangles by id describe: texts, sizes, checks. `ids/on_device.rs` makes it.
 
 use super::{
-    Cast, Plan, Site, Step, Store,
+    Cast, Owner, Plan, Site, Step, Store,
     arrays::{Array, Element, Image, Storage, called},
     check_casts, refused,
     split::Split,
-    triangle::{self, Holes, PULLED, TrianglePass},
+    triangle::{self, Holes, PULLED, TrianglePass, VIEW},
 };
 use crate::{
     capacity,
@@ -44,7 +44,7 @@ impl<'a, P: Deref<Target = dyn Store>> IdPlan<'a, P> {
             title: "vertices",
             element: Element::Corners,
             length: triangles * (1 + u64::from(site.asks)),
-            per_view: true,
+            owner: Owner::View,
             cleared: false,
             looked_up: true,
         });
@@ -54,12 +54,12 @@ impl<'a, P: Deref<Target = dyn Store>> IdPlan<'a, P> {
                 title: "seen bits",
                 element: Element::Word,
                 length: triangles.div_ceil(32),
-                per_view: false,
+                owner: Owner::Shared,
                 cleared: true,
                 looked_up: false,
             });
         }
-        let storage = Storage::new(arrays, store.images(&site), site.views, &site.device.limits);
+        let storage = Storage::new(arrays, store.images(&site), &site);
         Self { store, site, storage }
     }
 
@@ -93,7 +93,7 @@ impl<'a, P: Deref<Target = dyn Store>> IdPlan<'a, P> {
     }
 
     fn compute_text(&self, wgsl: &str) -> String {
-        format!("{STEP}{}{wgsl}", self.storage.written(wgsl, FIRST))
+        format!("{VIEW}{STEP}{}{wgsl}", self.storage.written(wgsl, FIRST))
     }
 
     /// What a step's shader calls functions of.
@@ -139,7 +139,7 @@ impl<'a, P: Deref<Target = dyn Store>> IdPlan<'a, P> {
     fn check_images(&self) -> Result<(), Unsupported> {
         let (limits, views) = (&self.site.device.limits, self.site.views);
         for Image { size, layers, .. } in &self.storage.images {
-            let (layers, max) = (layers.saturating_mul(views), limits.max_texture_array_layers);
+            let (layers, max) = (layers.saturating_mul(self.site.layers), limits.max_texture_array_layers);
             if !(1..=max).contains(&layers) {
                 return Err(Unsupported::Layers { views, layers, max });
             }

@@ -4,7 +4,7 @@
 //!
 //! [`CasterStorage::KBuffer`]: crate::technique::CasterStorage::KBuffer
 
-use super::{Array, Element, Site, Step, Store, refused};
+use super::{Array, Element, Owner, Site, Step, Store, refused};
 use crate::error::Unsupported;
 
 /// The first `k` triangles of each texel.
@@ -24,7 +24,7 @@ impl Store for KBuffer {
             title: "keys",
             element: Element::Word,
             length: site.texels() * u64::from(self.k),
-            per_view: true,
+            owner: Owner::Layer,
             cleared: true,
             looked_up: true,
         }]

@@ -16,6 +16,7 @@ use crate::{
     light::View,
     map::{MemoryItem, Options, Pipelines, Probe, Textures, written},
     shader::{Composition, Shader},
+    tile::Tile,
 };
 use wgpu::{
     BindGroup, BindGroupLayout, CommandEncoder, CompareFunction, RenderPipeline, ShaderStages, StoreOp,
@@ -154,14 +155,15 @@ impl NearestCast {
         MeshPipeline {
             pipeline: indexed.unwrap_or(&self.pulled[layer][spot as usize]),
             group: &self.groups[seen.view * self.pulled.len() + layer],
+            offsets: &[],
             indexed: indexed.is_some(),
         }
     }
 }
 
 impl Cast for NearestCast {
-    fn write(&self, queue: &wgpu::Queue, views: &[View]) {
-        self.views.write(queue, views);
+    fn write(&self, queue: &wgpu::Queue, views: &[View], tiles: &[Tile]) {
+        self.views.write(queue, views, tiles);
     }
 
     fn encode(
@@ -173,8 +175,8 @@ impl Cast for NearestCast {
         draw: &mut dyn FnMut(&mut CasterPass<'_>),
     ) {
         for layer in 0..self.pulled.len() {
-            let target = written(textures.map_target(seen.view, layer));
-            let depth = (textures.caster_target(seen.view, seen.cast), StoreOp::Store);
+            let target = written(textures.map_target(seen.layer(), layer), seen.first);
+            let depth = (textures.caster_target(seen.layer(), seen.cast, seen.first), StoreOp::Store);
             let pass = pass::begin(encoder, Some(target), depth, probe.pass("cast", seen.view));
             draw(&mut CasterPass::new(pass, seen, Some(self.meshes(seen, layer))));
         }

@@ -11,6 +11,13 @@ pub(super) const UNIFORM: BindingType = BindingType::Buffer {
     min_binding_size: None,
 };
 
+/// A uniform of one view, of several in its buffer.
+pub(super) const OF_VIEW: BindingType = BindingType::Buffer {
+    ty: wgpu::BufferBindingType::Uniform,
+    has_dynamic_offset: true,
+    min_binding_size: None,
+};
+
 /// A storage buffer that is written, or only read.
 pub(super) fn storage(read_only: bool) -> BindingType {
     let ty = wgpu::BufferBindingType::Storage { read_only };

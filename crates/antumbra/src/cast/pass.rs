@@ -5,6 +5,7 @@ use crate::{
     describe::{CasterStorage, Description},
     error::CasterError,
     light::View,
+    map,
 };
 use std::ops::{Deref, DerefMut, Range, RangeBounds};
 use wgpu::{BindGroup, RenderPass, RenderPipeline};
@@ -31,6 +32,8 @@ pub(super) struct MeshPipeline<'a> {
     pub(super) pipeline: &'a RenderPipeline,
     /// Group 0 of that pipeline, and of those for cut-outs.
     pub(super) group: &'a BindGroup,
+    /// Its dynamic offsets.
+    pub(super) offsets: &'a [u32],
     /// Whether triangles share vertices, by the mesh's indices.
     pub(super) indexed: bool,
 }
@@ -39,6 +42,10 @@ impl<'a> CasterPass<'a> {
     /// Without `meshes` the technique keeps depth.
     pub(super) fn new(pass: RenderPass<'a>, seen: Seen<'a>, meshes: Option<MeshPipeline<'a>>) -> Self {
         let Seen { index, from: view, .. } = seen;
+        let mut pass = pass;
+        if seen.tiled {
+            map::limit(&mut pass, &seen.tile);
+        }
         Self { pass, view, index, meshes, set: None, next_id: 0, drawn: Drawn::default() }
     }
 
@@ -95,7 +102,7 @@ impl<'a> CasterPass<'a> {
         let Some(meshes) = self.meshes.filter(|_| !triangles.is_empty()) else { return };
         if self.set.as_ref() != Some(pipeline) {
             self.pass.set_pipeline(pipeline);
-            self.pass.set_bind_group(0, meshes.group, &[]);
+            self.pass.set_bind_group(0, meshes.group, meshes.offsets);
             self.set = Some(pipeline.clone());
         }
         if indexed {
@@ -119,11 +126,11 @@ impl<'a> CasterPass<'a> {
     }
 }
 
-/// Begins a pass with depth that is cleared to 1.
+/// Begins a pass with that depth.
 pub(super) fn begin<'a>(
     encoder: &'a mut wgpu::CommandEncoder,
     colour: Option<wgpu::RenderPassColorAttachment<'_>>,
-    (depth, store): (&wgpu::TextureView, wgpu::StoreOp),
+    ((depth, load), store): ((&wgpu::TextureView, wgpu::LoadOp<f32>), wgpu::StoreOp),
     timestamp_writes: Option<wgpu::RenderPassTimestampWrites<'_>>,
 ) -> RenderPass<'a> {
     encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
@@ -131,7 +138,7 @@ pub(super) fn begin<'a>(
         color_attachments: if colour.is_some() { std::slice::from_ref(&colour) } else { &[] },
         depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
             view: depth,
-            depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(1.0), store }),
+            depth_ops: Some(wgpu::Operations { load, store }),
             stencil_ops: None,
         }),
         timestamp_writes,

@@ -14,10 +14,12 @@ use std::fmt::Debug;
 pub struct Site<'a> {
     /// Name of the technique.
     pub technique: &'static str,
-    /// Texels of a view.
+    /// Texels of a layer, and of a view that has one of its own.
     pub size: Size,
     /// Number of views.
     pub views: u32,
+    /// Number of layers: that of views, unless they are [tiles](crate::Tile).
+    pub layers: u32,
     /// Memory for triangles.
     pub capacity: Capacity,
     /// Whether lookups ask about the holes of cut-outs.
@@ -34,6 +36,7 @@ impl<'a> Site<'a> {
             technique: composition.description.about.name,
             size: options.size,
             views: options.views,
+            layers: options.layer_count(),
             capacity: options.capacity,
             asks: composition.asks,
             device,
@@ -41,7 +44,7 @@ impl<'a> Site<'a> {
         }
     }
 
-    /// Texels of a view.
+    /// Texels of a layer.
     #[must_use]
     pub fn texels(&self) -> u64 {
         u64::from(self.size.width) * u64::from(self.size.height)
@@ -49,7 +52,8 @@ impl<'a> Site<'a> {
 }
 
 /// Something that is done for each view. Its WGSL reads two numbers as `caster_step.words`, beside
-/// `caster_step.view` and `caster_step.triangles`, how many ids there are.
+/// `caster_step.view` and `caster_step.triangles`, how many ids there are; and as `caster_view.size`, `.origin`, `.layer` and
+/// `.layer_size` where the view lies. `caster_at(in)` is a fragment's place in it.
 #[derive(Debug, Clone, Copy)]
 pub enum Step {
     /// Casters are drawn, by the store's [`wgsl`](Store::wgsl).
@@ -63,8 +67,8 @@ pub enum Step {
         label: &'static str,
         /// The shader, which calls functions of arrays and images.
         wgsl: &'static str,
-        /// Workgroups.
-        workgroups: u32,
+        /// Texels of a view that a workgroup goes through.
+        texels: u32,
         /// `caster_step.words`.
         words: [u32; 2],
     },

@@ -2,6 +2,8 @@
 
 use crate::{describe::Coverage, shader::ShaderText};
 
+/// What shaders know of the view.
+pub(super) const VIEW: &str = include_str!("view.wgsl.in");
 /// Places the triangles of a [`CasterMesh`](crate::CasterMesh) on the map.
 const MESH: &str = include_str!("mesh.wgsl.in");
 /// What all texels need to know of a triangle.
@@ -88,8 +90,11 @@ pub(super) fn compose(
         .map(|(i, (name, ty))| format!("    @location({i}) @interpolate(flat) {name}: {ty},\n"))
         .collect();
     let [reach, spot] = pass.words();
-    let glue: String =
-        [MESH, TRIANGLE].into_iter().chain(slots.iter().copied()).chain(texts.iter().copied()).collect();
+    let glue: String = [VIEW, MESH, TRIANGLE]
+        .into_iter()
+        .chain(slots.iter().copied())
+        .chain(texts.iter().copied())
+        .collect();
     let glue = glue
         .replace("{varyings}", &members)
         .replace("{records}", &records.to_string())

@@ -5,6 +5,7 @@ use crate::{
     describe::Coverage,
     light::{Size, View},
     map::MemoryItem,
+    tile::Tile,
 };
 use wgpu::{BindingResource, Buffer, BufferUsages};
 
@@ -25,18 +26,20 @@ struct CasterView {
     reach: f32,
     near_over_far: f32,
     lean: f32,
-    padding: f32,
+    layer: u32,
+    origin: [f32; 2],
+    layer_size: [u32; 2],
 }
 
 impl CasterView {
     /// Of one of the kinds of texels that triangles are drawn to.
-    fn new(view: &View, size: Size, coverage: Coverage, among: &[Coverage]) -> Self {
+    fn new((view, tile): (&View, &Tile), layer_size: Size, coverage: Coverage, among: &[Coverage]) -> Self {
         // The apex lies in front of the near plane by the near distance.
         let near = -view.depth_world * view.depth_plane.dot(view.to_light);
         let perspective = perspective(view);
         Self {
             clip_from_world: view.clip_from_world.to_cols_array_2d(),
-            size: [size.width as f32, size.height as f32],
+            size: [tile.size.width as f32, tile.size.height as f32],
             least_distance: if perspective == 1 { near * LEAST_DISTANCE } else { f32::MIN },
             perspective,
             reach: match coverage {
@@ -50,7 +53,9 @@ impl CasterView {
             } else {
                 0.0
             },
-            padding: 0.0,
+            layer: tile.layer,
+            origin: tile.origin.map(|texels| texels as f32),
+            layer_size: [layer_size.width, layer_size.height],
         }
     }
 }
@@ -65,6 +70,7 @@ pub(super) fn perspective(view: &View) -> u32 {
 pub(super) struct CasterViews {
     buffer: Buffer,
     stride: u64,
+    /// Texels of a layer.
     size: Size,
     coverages: &'static [Coverage],
 }
@@ -81,10 +87,10 @@ impl CasterViews {
         Self { buffer: objects::buffer(device, "caster views", bytes, usage), stride, size, coverages }
     }
 
-    pub(super) fn write(&self, queue: &wgpu::Queue, views: &[View]) {
-        let all = views.iter().flat_map(|view| self.coverages.iter().map(move |coverage| (view, coverage)));
-        for (index, (view, coverage)) in (0..).zip(all) {
-            let bytes = CasterView::new(view, self.size, *coverage, self.coverages);
+    pub(super) fn write(&self, queue: &wgpu::Queue, views: &[View], tiles: &[Tile]) {
+        let all = views.iter().zip(tiles).flat_map(|at| self.coverages.iter().map(move |c| (at, c)));
+        for (index, (placed, coverage)) in (0..).zip(all) {
+            let bytes = CasterView::new(placed, self.size, *coverage, self.coverages);
             queue.write_buffer(&self.buffer, index * self.stride, bytemuck::bytes_of(&bytes));
         }
     }
@@ -93,6 +99,11 @@ impl CasterViews {
     pub(super) fn binding(&self, view: usize, coverage: usize) -> BindingResource<'_> {
         let index = view * self.coverages.len() + coverage;
         objects::element::<CasterView>(&self.buffer, index as u64, self.stride)
+    }
+
+    /// Dynamic offset of a view's, where all views have one coverage.
+    pub(super) fn offset(&self, view: usize) -> u32 {
+        (view as u64 * self.stride) as u32
     }
 
     pub(super) fn memory(&self, name: &str) -> MemoryItem {

@@ -1,9 +1,6 @@
 //! Depth that a renderer brings.
 
-use crate::{
-    error::Unsupported,
-    light::{Size, View},
-};
+use crate::{error::Unsupported, light::Size};
 use std::ops::Range;
 use wgpu::{CompareFunction, TextureDimension, TextureFormat, TextureUsages};
 
@@ -44,7 +41,7 @@ impl<'a> Depth<'a> {
         Self { reversed: true, ..self }
     }
 
-    /// Texels and views, if it can be read by a technique with so many caster passes per view.
+    /// Texels and layers, if it can be read by a technique with so many caster passes per view.
     ///
     /// # Errors
     /// [`Unsupported::Depth`].
@@ -110,9 +107,4 @@ pub(super) fn quantum(texture: &wgpu::Texture) -> f32 {
 /// Comparison of samplers: lit where it holds between the receiver's depth and the stored one.
 pub(super) fn comparison(reversed: bool) -> CompareFunction {
     if reversed { CompareFunction::GreaterEqual } else { CompareFunction::LessEqual }
-}
-
-/// The first view whose depth does not run as the map's does.
-pub(super) fn contrary(views: &[View], reversed: bool) -> Option<usize> {
-    views.iter().position(|view| view.is_reversed() != reversed)
 }

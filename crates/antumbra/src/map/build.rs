@@ -8,7 +8,13 @@ use super::{
     receiver::Samplers,
 };
 use crate::{
-    cast, describe::Technique, error::Unsupported, light::Size, pass, shader::Composition, technique,
+    cast,
+    describe::{Description, Technique},
+    error::Unsupported,
+    light::Size,
+    pass,
+    shader::Composition,
+    technique,
 };
 use std::sync::atomic::AtomicU32;
 
@@ -47,8 +53,8 @@ impl ShadowMap {
     /// Reads depth that the caller renders herself: a texture, or some of its layers and reversed depth
     /// ([`Depth`]). There is one layer per view (and caster pass, in the order of
     /// [`caster_views`](Self::caster_views)), and z is what
-    /// [`View::clip_from_world`](crate::View::clip_from_world) gives. `options.size` and `options.views` are taken from
-    /// the texture. Use [`encode_filter`](Self::encode_filter) instead of `encode`.
+    /// [`View::clip_from_world`](crate::View::clip_from_world) gives. `options.size` and `options.views`, or `options.layers` if
+    /// views are tiles, are taken from the texture. Use [`encode_filter`](Self::encode_filter) instead of `encode`.
     ///
     /// # Errors
     /// [`Unsupported::Depth`] if the texture cannot be read, else as [`new`](Self::new).
@@ -89,11 +95,7 @@ impl ShadowMap {
         let capabilities = Capabilities::of(device);
         let mut description = technique.describe(&capabilities)?;
         let options = &match depth {
-            Some(depth) => {
-                let (size, views) = depth.check(description.sample_offsets.len() as u32)?;
-                description.bring(brought::quantum(depth.texture()), depth.is_reversed());
-                Options { size, views, ..options.clone() }
-            }
+            Some(depth) => bring(options, depth, &mut description)?,
             None => options.clone(),
         };
         let composition = Composition::new(description, options)?;
@@ -110,10 +112,11 @@ impl ShadowMap {
         drop(plan);
         let textures = Textures::new(device, &capabilities, description, options, depth);
         let uniforms = Uniforms::new(device, description, options);
-        let steps = pass::plan(&composition, &capabilities, options.size);
-        let draw = |view, step| Draw::new(&pipelines, &textures, &uniforms, &description.maps, step, view);
-        let draws =
-            (0..options.views).map(|view| steps.iter().map(|step| draw(view, step)).collect()).collect();
+        let steps = pass::filter_steps(&composition, &capabilities, options.size);
+        let draw = |layer, step| Draw::new(&pipelines, &textures, &uniforms, &composition, step, layer);
+        let draws = (0..options.layer_count())
+            .map(|layer| steps.iter().map(|step| draw(layer, step)).collect())
+            .collect();
         let samplers = Samplers::new(device, description, &capabilities, &textures);
         let resources = samplers.resources(description, &textures, &uniforms, cast.as_ref());
         let (layout, bind_group) = Samplers::group(device, resources);
@@ -132,7 +135,19 @@ impl ShadowMap {
             layout,
             bind_group,
             views: Vec::with_capacity(options.views as usize),
+            tiles: Vec::with_capacity(options.views as usize),
+            next_tiles: Vec::with_capacity(options.views as usize),
             caster_views: Vec::with_capacity(options.views as usize * casts),
         })
     }
+}
+
+/// Options of a map that reads this depth, and what follows from it for the description.
+fn bring(options: &Options, depth: &Depth<'_>, described: &mut Description) -> Result<Options, Unsupported> {
+    let (size, layers) = depth.check(described.sample_offsets.len() as u32)?;
+    described.bring(brought::quantum(depth.texture()), depth.is_reversed());
+    Ok(match options.layers {
+        None => Options { size, views: layers, ..options.clone() },
+        Some(_) => Options { size, layers: Some(layers), ..options.clone() },
+    })
 }

@@ -28,19 +28,25 @@ pub(super) fn device(
     if !(1..=max).contains(&width) || !(1..=max).contains(&height) {
         return Err(Unsupported::Size { width, height, max });
     }
-    let layers = description.maps.iter().map(|m| m.layers).max().unwrap_or(1).saturating_mul(options.views);
+    if options.lights == 0 {
+        return Err(Unsupported::Lights);
+    }
+    let most = description.maps.iter().map(|m| m.layers).max().unwrap_or(1);
+    let layers = if options.views == 0 { 0 } else { most.saturating_mul(options.layer_count()) };
     let max = limits.max_texture_array_layers;
     if !(1..=max).contains(&layers) {
         return Err(Unsupported::Layers { views: options.views, layers, max });
     }
     let most_bytes = limits.max_uniform_buffer_binding_size;
-    let most = most_bytes.saturating_sub(uniforms::bytes(description, 0)) / uniforms::view_bytes(description);
+    let most = most_bytes
+        .saturating_sub(uniforms::bytes(description, &Options { views: 0, ..options.clone() }))
+        / uniforms::view_bytes(description);
     if u64::from(options.views) > most {
         return Err(Unsupported::Feature {
             technique: description.about.name.into(),
             what: format!(
                 "a uniform binding of {} bytes for {} views ({most_bytes} are possible)",
-                uniforms::bytes(description, options.views),
+                uniforms::bytes(description, options),
                 options.views
             ),
             instead: format!("take at most {most} views"),

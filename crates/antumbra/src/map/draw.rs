@@ -2,13 +2,15 @@
 
 use super::{
     DEPTH_FORMAT,
-    pipelines::{Pipelines, Run},
+    pipelines::{Compiled, Pipelines},
     textures::{self, Textures},
     uniforms::Uniforms,
 };
 use crate::{
-    describe::Map,
-    pass::{self, Slot, Step, Work},
+    light::Size,
+    pass::{self, Axis, FilterStep, Holder, Work},
+    shader::Composition,
+    tile::Tile,
 };
 use wgpu::TextureFormat;
 
@@ -19,50 +21,73 @@ const MOST_TARGETS: usize = 8;
 #[derive(Debug)]
 pub(super) struct Draw {
     pub(super) label: &'static str,
-    run: Run,
-    /// Workgroups, if it dispatches.
-    groups: u32,
+    run: Compiled,
+    work: Work,
+    /// Level of its targets.
+    mip: u32,
+    /// Whether views are parts of its targets.
+    tiled: bool,
     bind_group: wgpu::BindGroup,
     targets: Vec<wgpu::TextureView>,
     /// The caster pass that it follows, if not the last.
     pub(super) cast: Option<u32>,
 }
 
+/// The view that steps are run for.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Run {
+    /// Where it lies.
+    pub(super) tile: Tile,
+    /// Where its uniforms begin.
+    pub(super) uniforms: u32,
+}
+
 impl Draw {
-    /// Binds a step to the textures of one view.
+    /// Binds a step to the textures of one layer of views.
     pub(super) fn new(
         pipelines: &Pipelines,
         textures: &Textures,
         uniforms: &Uniforms,
-        maps: &[Map],
-        step: &Step,
-        view: u32,
+        composition: &Composition,
+        step: &FilterStep,
+        layer: u32,
     ) -> Self {
-        let format = |slot| match slot {
-            Slot::Map(i) | Slot::Scratch(i) => maps[i].format,
-            Slot::Casters | Slot::Casts { .. } => DEPTH_FORMAT,
+        let format = |holder| match holder {
+            Holder::Map(i) | Holder::Scratch(i) => composition.description.maps[i].format,
+            Holder::Casters | Holder::Casts { .. } => DEPTH_FORMAT,
         };
-        let formats: Vec<TextureFormat> = step.targets.iter().map(|t| format(t.slot)).collect();
+        let formats: Vec<TextureFormat> = step.targets.iter().map(|t| format(t.holder)).collect();
         let pipeline = pipelines.get(step, &formats);
-        let (source, targets) = (textures.source(step, view), textures.targets(step, view));
-        let bind_group = pipelines.bind(&pipeline, step, [&source, &targets[0]], uniforms.convert(view));
-        let groups = match step.work {
-            Work::Draw => 0,
-            Work::Lanes(lanes) => lanes.div_ceil(pass::WORKGROUP),
-        };
-        Self { label: step.label, run: pipeline.run, groups, bind_group, targets, cast: step.cast() }
+        let (source, targets) = (textures.source(step, layer), textures.targets(step, layer));
+        let bind_group = pipelines.bind(&pipeline, step, [&source, &targets[0]], uniforms.convert());
+        Self {
+            label: step.label,
+            run: pipeline.run,
+            work: step.work,
+            mip: step.targets.iter().map(|target| target.mip).max().unwrap_or(0),
+            tiled: composition.tiled,
+            bind_group,
+            targets,
+            cast: step.cast(),
+        }
     }
 
-    /// Runs it.
+    /// Whether a view there has the level that it makes.
+    pub(super) fn makes_any_of(&self, tile: &Tile) -> bool {
+        self.mip <= tile.coarsest()
+    }
+
+    /// Runs it for a view.
     pub(super) fn encode(
         &self,
         encoder: &mut wgpu::CommandEncoder,
+        seen: Run,
         timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
     ) {
         match &self.run {
-            Run::Draw(pipeline) => {
+            Compiled::Draw(pipeline) => {
                 let attachments: [_; MOST_TARGETS] =
-                    std::array::from_fn(|i| self.targets.get(i).map(|t| textures::written(t)));
+                    std::array::from_fn(|i| self.targets.get(i).map(|t| textures::written(t, !self.tiled)));
                 let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                     label: Some(self.label),
                     color_attachments: &attachments[..self.targets.len()],
@@ -71,18 +96,30 @@ impl Draw {
                     occlusion_query_set: None,
                     multiview_mask: None,
                 });
+                if self.tiled {
+                    limit(&mut pass, &seen.tile.at_level(self.mip));
+                }
                 pass.set_pipeline(pipeline);
-                pass.set_bind_group(0, &self.bind_group, &[]);
+                pass.set_bind_group(0, &self.bind_group, &[seen.uniforms]);
                 pass.draw(0..3, 0..1);
             }
-            Run::Dispatch(pipeline) => {
+            Compiled::Dispatch(pipeline) => {
                 let mut pass = compute_pass(encoder, self.label, timestamps);
                 pass.set_pipeline(pipeline);
-                pass.set_bind_group(0, &self.bind_group, &[]);
-                pass.dispatch_workgroups(self.groups, 1, 1);
+                pass.set_bind_group(0, &self.bind_group, &[seen.uniforms]);
+                let Size { width, height } = seen.tile.size;
+                let lanes = if self.work == Work::Lanes(Axis::Rows) { height } else { width };
+                pass.dispatch_workgroups(lanes.div_ceil(pass::WORKGROUP), 1, 1);
             }
         }
     }
+}
+
+/// Confines a pass to a part of its targets.
+pub(crate) fn limit(pass: &mut wgpu::RenderPass<'_>, tile: &Tile) {
+    let Tile { origin: [x, y], size: Size { width, height }, .. } = *tile;
+    pass.set_viewport(x as f32, y as f32, width as f32, height as f32, 0.0, 1.0);
+    pass.set_scissor_rect(x, y, width, height);
 }
 
 /// Begins a compute pass with the timestamps of a render pass.

@@ -1,6 +1,9 @@
 //! Encodes the passes of a frame.
 
-use super::{NoProbe, Probe, ShadowMap, draw::Draw};
+use super::{
+    NoProbe, Probe, ShadowMap,
+    draw::{Draw, Run},
+};
 use crate::{
     cast::{CasterPass, Drawn, Seen},
     error::CasterError,
@@ -60,7 +63,7 @@ impl ShadowMap {
         for view in 0..self.views.len() {
             for cast in 0..=last {
                 let index = view * (last + 1) + cast;
-                let seen = Seen { view, cast, index, from: &self.caster_views[index] };
+                let seen = self.seen(view, cast, index);
                 self.cast.encode(encoder, seen, &self.textures, probe, &mut draw);
                 let follows = |draw: &Draw| draw.cast.map_or(last, |c| c as usize) == cast;
                 self.encode_view_filter(encoder, view, follows, probe);
@@ -76,6 +79,19 @@ impl ShadowMap {
         }
     }
 
+    fn seen(&self, view: usize, cast: usize, index: usize) -> Seen<'_> {
+        let tile = self.tiles[view];
+        Seen {
+            view,
+            cast,
+            index,
+            from: &self.caster_views[index],
+            tile,
+            tiled: self.composition.tiled,
+            first: self.tiles[..view].iter().all(|before| before.layer != tile.layer),
+        }
+    }
+
     fn encode_view_filter(
         &self,
         encoder: &mut wgpu::CommandEncoder,
@@ -83,8 +99,11 @@ impl ShadowMap {
         now: impl Fn(&Draw) -> bool,
         probe: &mut dyn Probe,
     ) {
-        for draw in self.draws[view].iter().filter(|draw| now(draw)) {
-            draw.encode(encoder, probe.pass(draw.label, view));
+        let tile = self.tiles[view];
+        let run = Run { tile, uniforms: self.uniforms.offset(view) };
+        let draws = self.draws[tile.layer as usize].iter();
+        for draw in draws.filter(|draw| now(draw) && draw.makes_any_of(&tile)) {
+            draw.encode(encoder, run, probe.pass(draw.label, view));
         }
     }
 }

@@ -6,10 +6,15 @@ use crate::{capacity::Capacity, light::Size, technique::Bias};
 /// How a [`ShadowMap`](crate::ShadowMap) is made. A [`Size`] alone is enough.
 #[derive(Debug, Clone)]
 pub struct Options {
-    /// Texels of each view.
+    /// Texels of each layer, and so of each view that is not [placed](crate::View::at) in a part of one.
     pub size: Size,
-    /// Most views (cascades) at a time, at least 1.
+    /// Most views (cascades) at a time, of all lights, at least 1.
     pub views: u32,
+    /// Most lights at a time, at least 1. With more than one, `shadow_visibility` takes the number of a light first
+    /// ([`ShadowMap::prepare_lights`](crate::ShadowMap::prepare_lights)).
+    pub lights: u32,
+    /// Layers in which views lie as [tiles](crate::Tile); none for a layer for each view.
+    pub layers: Option<u32>,
     /// Against shadows of a surface on itself.
     pub bias: Bias,
     /// Share it between maps, so that no shader is compiled twice.
@@ -30,6 +35,8 @@ impl From<Size> for Options {
         Self {
             size,
             views: 1,
+            lights: 1,
+            layers: None,
             bias: Bias::Auto,
             pipelines: None,
             capacity: Capacity::default(),
@@ -44,6 +51,20 @@ impl Options {
     #[must_use]
     pub fn views(self, views: u32) -> Self {
         Self { views, ..self }
+    }
+    /// The same with room for that many lights.
+    #[must_use]
+    pub fn lights(self, lights: u32) -> Self {
+        Self { lights, ..self }
+    }
+    /// The same with views in [tiles](crate::Tile) of so many layers.
+    #[must_use]
+    pub fn tiled(self, layers: u32) -> Self {
+        Self { layers: Some(layers), ..self }
+    }
+    /// Layers of its textures, for each that a technique keeps.
+    pub(crate) fn layer_count(&self) -> u32 {
+        self.layers.unwrap_or(self.views)
     }
     /// The same with that bias.
     #[must_use]
@@ -86,38 +107,4 @@ impl Probe for NoProbe {
     fn pass(&mut self, _: &'static str, _: usize) -> Option<wgpu::RenderPassTimestampWrites<'_>> {
         None
     }
-}
-
-/// Why a shadow map does not take views.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum PrepareError {
-    /// There are more than the map was made for.
-    #[error("{given} views for a shadow map that was made for {max}; see Options::views")]
-    TooManyViews {
-        /// Views given.
-        given: usize,
-        /// Views that the map was made for.
-        max: usize,
-    },
-    /// The map is not made for warped views.
-    #[error(
-        "views[{view}] is warped: its linear depth depends on the place in the picture; see Options::warped"
-    )]
-    Warped {
-        /// Index of the view.
-        view: usize,
-    },
-    /// Depth runs the other way than in the map.
-    #[error(
-        "views[{view}] has depth that {} with the distance, and the map's {}; a map of reversed depth is made by from_depth with Depth::reversed",
-        if *reversed { "falls" } else { "grows" },
-        if *reversed { "grows" } else { "falls" }
-    )]
-    Depth {
-        /// Index of the view.
-        view: usize,
-        /// Whether the view's depth is reversed.
-        reversed: bool,
-    },
 }

@@ -1,6 +1,6 @@
 //! One cache of full-screen pipelines per device.
 
-use crate::pass::{Slot, Step, Work};
+use crate::pass::{FilterStep, Holder, Work};
 use std::{
     collections::HashMap,
     sync::{Arc, Mutex, PoisonError},
@@ -23,14 +23,14 @@ pub struct Pipelines {
 /// A compiled step.
 #[derive(Debug, Clone)]
 pub(super) struct Pipeline {
-    pub(super) run: Run,
+    pub(super) run: Compiled,
     layout: BindGroupLayout,
 }
 
-/// How a step is run.
+/// What a step is run by.
 #[derive(Debug, Clone)]
-pub(super) enum Run {
-    /// A full-screen triangle.
+pub(super) enum Compiled {
+    /// A triangle over all of the view.
     Draw(RenderPipeline),
     /// A compute shader whose invocations are rows or columns.
     Dispatch(ComputePipeline),
@@ -73,7 +73,7 @@ impl Pipelines {
     }
 
     /// The pipeline of a step whose targets have these formats.
-    pub(super) fn get(&self, step: &Step, formats: &[TextureFormat]) -> Pipeline {
+    pub(super) fn get(&self, step: &FilterStep, formats: &[TextureFormat]) -> Pipeline {
         let mut made = self.made.lock().unwrap_or_else(PoisonError::into_inner);
         made.entry((step.shader.clone(), formats.to_vec()))
             .or_insert_with(|| self.compile(step, formats))
@@ -92,7 +92,7 @@ impl Pipelines {
         made.entry(key).or_insert_with(|| compile(&self.device)).clone()
     }
 
-    fn compile(&self, step: &Step, formats: &[TextureFormat]) -> Pipeline {
+    fn compile(&self, step: &FilterStep, formats: &[TextureFormat]) -> Pipeline {
         let module = self.device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some(step.label),
             source: wgpu::ShaderSource::Wgsl(step.shader.as_str().into()),
@@ -104,9 +104,9 @@ impl Pipelines {
             immediate_size: 0,
         });
         let run = match step.work {
-            Work::Draw => Run::Draw(self.draw(step, &module, &pipeline_layout, formats)),
+            Work::Draw => Compiled::Draw(self.draw(step, &module, &pipeline_layout, formats)),
             Work::Lanes(_) => {
-                Run::Dispatch(self.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                Compiled::Dispatch(self.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
                     label: Some(step.label),
                     layout: Some(&pipeline_layout),
                     module: &module,
@@ -121,7 +121,7 @@ impl Pipelines {
 
     fn draw(
         &self,
-        step: &Step,
+        step: &FilterStep,
         module: &wgpu::ShaderModule,
         layout: &wgpu::PipelineLayout,
         formats: &[TextureFormat],
@@ -150,8 +150,8 @@ impl Pipelines {
         })
     }
 
-    /// Binding 0 is the source; 1 the settings of converting and adaptive blurs; 2 a nearest sampler; 3 a storage target.
-    fn layout(&self, step: &Step, formats: &[TextureFormat]) -> BindGroupLayout {
+    /// Binding 0 is the source; 1 what steps know of the view, at a dynamic offset; 2 a nearest sampler; 3 a storage target.
+    fn layout(&self, step: &FilterStep, formats: &[TextureFormat]) -> BindGroupLayout {
         use wgpu::{SamplerBindingType, TextureSampleType, TextureViewDimension as Dimension};
         let texture = |sample_type, view_dimension| BindingType::Texture {
             sample_type,
@@ -160,17 +160,17 @@ impl Pipelines {
         };
         let uniform = BindingType::Buffer {
             ty: wgpu::BufferBindingType::Uniform,
-            has_dynamic_offset: false,
+            has_dynamic_offset: true,
             min_binding_size: None,
         };
         let sampler = BindingType::Sampler(SamplerBindingType::NonFiltering);
         let floats = TextureSampleType::Float { filterable: false };
-        let (source, uniform, sampler) = match (step.source.slot, step.work) {
-            (Slot::Casters | Slot::Casts { .. }, _) => {
-                (texture(TextureSampleType::Depth, Dimension::D2Array), Some(uniform), Some(sampler))
+        let (source, sampler) = match (step.source.holder, step.work) {
+            (Holder::Casters | Holder::Casts { .. }, _) => {
+                (texture(TextureSampleType::Depth, Dimension::D2Array), Some(sampler))
             }
-            (_, Work::Draw) => (texture(floats, Dimension::D2Array), Some(uniform), Some(sampler)),
-            (_, Work::Lanes(_)) => (texture(TextureSampleType::Uint, Dimension::D2Array), None, None),
+            (_, Work::Draw) => (texture(floats, Dimension::D2Array), Some(sampler)),
+            (_, Work::Lanes(_)) => (texture(TextureSampleType::Uint, Dimension::D2Array), None),
         };
         let target = |format: &TextureFormat| BindingType::StorageTexture {
             access: wgpu::StorageTextureAccess::WriteOnly,
@@ -185,30 +185,29 @@ impl Pipelines {
         let entry = |(i, ty): (u32, Option<BindingType>)| {
             ty.map(|ty| wgpu::BindGroupLayoutEntry { binding: i, visibility, ty, count: None })
         };
-        let entries: Vec<_> = (0..).zip([Some(source), uniform, sampler, stored]).filter_map(entry).collect();
+        let entries: Vec<_> =
+            (0..).zip([Some(source), Some(uniform), sampler, stored]).filter_map(entry).collect();
         self.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some(step.label),
             entries: &entries,
         })
     }
 
-    /// What a step reads and stores; `uniforms` are those of converting and adaptive blurs.
+    /// What a step reads and stores; `uniforms` are those of all views.
     pub(super) fn bind(
         &self,
         pipeline: &Pipeline,
-        step: &Step,
+        step: &FilterStep,
         [source, target]: [&TextureView; 2],
         uniforms: wgpu::BindingResource<'_>,
     ) -> BindGroup {
         use wgpu::{BindGroupEntry, BindingResource};
-        let sampler = Some(BindingResource::Sampler(&self.nearest));
-        let (uniforms, sampler) = match (step.source.slot, step.work) {
-            (Slot::Casters | Slot::Casts { .. }, _) => (Some(uniforms), sampler),
-            (_, Work::Draw) => (Some(uniforms), sampler),
-            (_, Work::Lanes(_)) => (None, None),
+        let sampler = match (step.source.holder, step.work) {
+            (Holder::Map(_) | Holder::Scratch(_), Work::Lanes(_)) => None,
+            _ => Some(BindingResource::Sampler(&self.nearest)),
         };
         let stored = matches!(step.work, Work::Lanes(_)).then_some(BindingResource::TextureView(target));
-        let resources = [Some(BindingResource::TextureView(source)), uniforms, sampler, stored];
+        let resources = [Some(BindingResource::TextureView(source)), Some(uniforms), sampler, stored];
         let entries: Vec<_> = (0..)
             .zip(resources)
             .filter_map(|(binding, resource)| Some(BindGroupEntry { binding, resource: resource? }))

@@ -9,11 +9,12 @@ use crate::{
     capabilities::Capabilities,
     describe::{Binding, Description, Map, Pass},
     light::Size,
-    pass::{self, Place, Slot, Step},
+    pass::{self, FilterStep, Holder, Place},
 };
 use std::ops::Range;
 use wgpu::{
-    TextureAspect, TextureFormat, TextureUsages, TextureView, TextureViewDescriptor, TextureViewDimension,
+    LoadOp, TextureAspect, TextureFormat, TextureUsages, TextureView, TextureViewDescriptor,
+    TextureViewDimension,
 };
 
 /// One entry of `Description::maps`, allocated.
@@ -51,8 +52,8 @@ pub(crate) struct Textures {
 }
 
 impl Textures {
-    /// Casters' depth has a layer per view if receivers compare it, else those that all views share: one
-    /// for each caster pass of a view, at most four.
+    /// Casters' depth has all layers if receivers compare it, else those that all views share: one for each caster pass
+    /// of a view, at most four.
     pub(super) fn new(
         device: &wgpu::Device,
         capabilities: &Capabilities,
@@ -63,7 +64,7 @@ impl Textures {
         let Description { maps, sample_offsets, .. } = description;
         let (compares, casts) = (description.reads_depth(), sample_offsets.len() as u32);
         let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING;
-        let layers = if compares { options.views } else { casts.min(4) };
+        let layers = if compares { options.layer_count() } else { casts.min(4) };
         let casters = depth.map(|depth| depth.texture().clone()).unwrap_or_else(|| {
             texture(device, "casters' depth", options.size, layers, 1, DEPTH_FORMAT, usage)
         });
@@ -77,7 +78,7 @@ impl Textures {
         let caster_targets = caster_layers.clone().map(|layer| one(&casters, layer, 0)).collect();
         let keep = |map: &Map| {
             let levels = pass::levels(map, options.size);
-            let layers = map.layers * options.views;
+            let layers = map.layers * options.layer_count();
             let written = if map.passes.iter().any(|p| matches!(p, Pass::Sum(_))) {
                 TextureUsages::STORAGE_BINDING
             } else {
@@ -92,7 +93,7 @@ impl Textures {
             Kept { name: map.name, layers: map.layers, array: all(&kept), texture: kept, scratch }
         };
         let maps: Vec<Kept> = maps.iter().map(keep).collect();
-        let layers = maps.first().map_or(0, |map| map.layers * options.views);
+        let layers = maps.first().map_or(0, |map| map.layers * options.layer_count());
         let map_targets = (0..layers).map(|layer| one(&maps[0].texture, layer, 0)).collect();
         let casters_array = some(&casters, caster_layers.clone(), None);
         Self {
@@ -107,16 +108,23 @@ impl Textures {
         }
     }
 
-    /// A layer of the first map of a view.
-    pub(crate) fn map_target(&self, view: usize, layer: usize) -> &TextureView {
-        &self.map_targets[view * self.maps[0].layers as usize + layer]
+    /// One of the layers that the first map has for a layer of views.
+    pub(crate) fn map_target(&self, layer: usize, of_map: usize) -> &TextureView {
+        &self.map_targets[layer * self.maps[0].layers as usize + of_map]
     }
 
-    /// Depth attachment of a caster pass of a view.
-    pub(crate) fn caster_target(&self, view: usize, cast: usize) -> &TextureView {
+    /// Depth attachment of a caster pass of a view in a layer, and what is there before: nothing unless it is kept and
+    /// views before this one lie in that layer.
+    pub(crate) fn caster_target(
+        &self,
+        layer: usize,
+        cast: usize,
+        first: bool,
+    ) -> (&TextureView, LoadOp<f32>) {
+        let transient = self.casters_lifetime == Lifetime::Transient;
         // Four passes are converted together.
-        let layer = if self.casters_lifetime == Lifetime::Transient { cast } else { view };
-        &self.caster_targets[layer % self.caster_targets.len()]
+        let target = &self.caster_targets[if transient { cast } else { layer } % self.caster_targets.len()];
+        (target, if transient || first { LoadOp::Clear(1.0) } else { LoadOp::Load })
     }
 
     /// All layers of the casters' depth.
@@ -145,30 +153,34 @@ impl Textures {
         &self.maps
     }
 
-    /// What a step reads, for one view: layers of one level as an array, or the casters' depth.
-    pub(super) fn source(&self, step: &Step, view: u32) -> TextureView {
-        let Place { slot, layer, mip } = step.source;
+    /// What a step reads, for one layer of views: layers of one level as an array, or the casters' depth.
+    pub(super) fn source(&self, step: &FilterStep, of_views: u32) -> TextureView {
+        let Place { holder, layer, mip } = step.source;
         let array = |texture, first, layers| some(texture, first..first + layers, Some(mip));
         let Range { start, end } = self.caster_layers;
         let layers = step.source_layers;
-        match slot {
-            // Views share one layer unless receivers compare it or it is the caller's.
-            Slot::Casters => array(&self.casters, (start + view).min(end - 1), 1),
-            Slot::Casts { first, of, .. } => {
+        match holder {
+            // All share one layer unless receivers compare it or it is the caller's.
+            Holder::Casters => array(&self.casters, (start + of_views).min(end - 1), 1),
+            Holder::Casts { first, of, .. } => {
                 let own = self.casters_lifetime == Lifetime::Borrowed;
-                array(&self.casters, start + if own { view * of + first } else { 0 }, layers)
+                array(&self.casters, start + if own { of_views * of + first } else { 0 }, layers)
             }
-            Slot::Map(i) => array(&self.maps[i].texture, view * self.maps[i].layers + layer, layers),
-            Slot::Scratch(i) => array(self.maps[i].scratch(), layer, layers),
+            Holder::Map(i) => array(&self.maps[i].texture, of_views * self.maps[i].layers + layer, layers),
+            Holder::Scratch(i) => array(self.maps[i].scratch(), layer, layers),
         }
     }
 
-    /// What a step writes, for one view.
-    pub(super) fn targets(&self, step: &Step, view: u32) -> Vec<TextureView> {
-        let target = |place: &Place| match place.slot {
-            Slot::Casters | Slot::Casts { .. } => self.caster_target(view as usize, 0).clone(),
-            Slot::Map(i) => one(&self.maps[i].texture, view * self.maps[i].layers + place.layer, place.mip),
-            Slot::Scratch(i) => one(self.maps[i].scratch(), place.layer, 0),
+    /// What a step writes, for one layer of views.
+    pub(super) fn targets(&self, step: &FilterStep, of_views: u32) -> Vec<TextureView> {
+        let target = |place: &Place| match place.holder {
+            Holder::Casters | Holder::Casts { .. } => {
+                self.caster_target(of_views as usize, 0, true).0.clone()
+            }
+            Holder::Map(i) => {
+                one(&self.maps[i].texture, of_views * self.maps[i].layers + place.layer, place.mip)
+            }
+            Holder::Scratch(i) => one(self.maps[i].scratch(), place.layer, 0),
         };
         step.targets.iter().map(target).collect()
     }
@@ -240,14 +252,14 @@ fn aspect(texture: &wgpu::Texture) -> TextureAspect {
     if texture.format().has_depth_aspect() { TextureAspect::DepthOnly } else { TextureAspect::All }
 }
 
-/// A colour attachment of which every texel is written.
-pub(crate) fn written(view: &TextureView) -> wgpu::RenderPassColorAttachment<'_> {
+/// A colour attachment of which every texel is written, or every texel of a tile: the others are kept.
+pub(crate) fn written(view: &TextureView, all: bool) -> wgpu::RenderPassColorAttachment<'_> {
     wgpu::RenderPassColorAttachment {
         view,
         depth_slice: None,
         resolve_target: None,
         ops: wgpu::Operations {
-            load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+            load: if all { LoadOp::Clear(wgpu::Color::TRANSPARENT) } else { LoadOp::Load },
             store: wgpu::StoreOp::Store,
         },
     }

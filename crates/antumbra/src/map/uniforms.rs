@@ -6,6 +6,7 @@ use crate::{
     describe::{Description, Pass},
     kernel::{Adaptive, MOST_SIDE, Width},
     light::{Size, View},
+    tile::Tile,
 };
 
 /// Rust side of `ShadowView` in the receiver's glue.
@@ -17,10 +18,11 @@ struct ShadowView {
     to_light: [f32; 4],
     linear_over: [f32; 4],
     linear_under: [f32; 4],
+    tile: [f32; 4],
     texel_world: f32,
     reach_x: f32,
     reach_y: f32,
-    padding: f32,
+    layer: u32,
 }
 
 /// Without what follows it.
@@ -63,11 +65,14 @@ pub(super) struct Uniforms {
     convert_bytes: u64,
     stride: u64,
     room: usize,
+    lights: usize,
+    /// Texels of a layer.
+    size: Size,
     bytes: Vec<u8>,
     /// width, height, bias: what follows `views` and `view_count`, then the settings.
     scalars: Vec<f32>,
     settings: usize,
-    reach: [f32; 2],
+    reach_texels: f32,
     /// What each view's part of the receivers' buffer ends with.
     per_view: PerView,
     /// The blur whose weights each view's convert settings begin with.
@@ -76,7 +81,6 @@ pub(super) struct Uniforms {
 
 impl Uniforms {
     pub(super) fn new(device: &wgpu::Device, description: &Description, options: &Options) -> Self {
-        let (width, height) = (options.size.width as f32, options.size.height as f32);
         let scalars = scalars(description, options.bias.terms(description.bias), options.size);
         let per_view = PerView::of(description);
         let settings = description.uniforms.len();
@@ -97,7 +101,7 @@ impl Uniforms {
             Pass::Blur(kernel, _) => kernel.adaptive,
             Pass::Mips(_) | Pass::Sum(_) => None,
         });
-        let receiver = buffer("shadow receiver", bytes(description, options.views));
+        let receiver = buffer("shadow receiver", bytes(description, options));
         Self {
             convert: buffer("shadow convert", room as u64 * stride),
             bytes: Vec::with_capacity(receiver.size().max(room as u64 * stride) as usize),
@@ -105,11 +109,11 @@ impl Uniforms {
             convert_bytes,
             stride,
             room,
+            size: options.size,
+            lights: options.lights as usize,
             scalars,
             settings,
-            // A lookup within half a texel of the border would read beyond it; so does a kernel.
-            reach: [1.0 / width, 1.0 / height]
-                .map(|texel| (description.filter_radius_texels * texel).min(0.499)),
+            reach_texels: description.filter_radius_texels,
             per_view,
             blur: blur.into_iter().next(),
         }
@@ -120,18 +124,32 @@ impl Uniforms {
         self.scalars = scalars(description, options.bias.terms(description.bias), options.size);
     }
 
-    pub(super) fn write(&mut self, queue: &wgpu::Queue, views: &[View]) {
-        receiver_bytes(&mut self.bytes, views, self.room, self.reach, &self.per_view, &self.scalars);
+    /// Takes views, where they lie, and how many of them, in order, are each light's.
+    pub(super) fn write(
+        &mut self,
+        queue: &wgpu::Queue,
+        (views, tiles): (&[View], &[Tile]),
+        of_lights: impl Iterator<Item = usize>,
+    ) {
+        let placed = views.iter().zip(tiles);
+        view_bytes_of(&mut self.bytes, placed.clone(), self.room, self.reach_texels, &self.per_view);
+        if self.lights > 1 {
+            light_bytes(&mut self.bytes, of_lights, self.lights);
+        }
+        self.bytes.extend_from_slice(&(views.len() as u32).to_ne_bytes());
+        self.bytes.extend_from_slice(bytemuck::cast_slice(&self.scalars));
         queue.write_buffer(&self.receiver, 0, &self.bytes);
 
         let settings = &self.scalars[self.scalars.len() - self.settings..];
         self.bytes.clear();
-        for (i, view) in views.iter().enumerate() {
+        for (i, (view, tile)) in placed.enumerate() {
             self.bytes.resize(i * self.stride as usize, 0);
             let (side, reach) = self.blur.map_or(([0.0; MOST_SIDE], 0), |blur| blur.side(view.texel_world));
             self.bytes.extend_from_slice(bytemuck::cast_slice(&side));
             self.bytes.extend_from_slice(bytemuck::cast_slice(&view.linear_from_clip));
-            self.bytes.extend_from_slice(&(reach as f32).to_ne_bytes());
+            self.bytes.extend_from_slice(bytemuck::cast_slice(&numbers(tile)));
+            let Size { width, height } = self.size;
+            extend(&mut self.bytes, [width as f32, height as f32, reach as f32].into_iter());
             self.bytes.extend_from_slice(bytemuck::cast_slice(settings));
             extend(&mut self.bytes, self.per_view.at(view.texel_world));
         }
@@ -142,12 +160,18 @@ impl Uniforms {
         self.receiver.as_entire_binding()
     }
 
-    pub(super) fn convert(&self, view: u32) -> wgpu::BindingResource<'_> {
+    /// Of one view, at a dynamic offset.
+    pub(super) fn convert(&self) -> wgpu::BindingResource<'_> {
         wgpu::BindingResource::Buffer(wgpu::BufferBinding {
             buffer: &self.convert,
-            offset: u64::from(view) * self.stride,
+            offset: 0,
             size: std::num::NonZeroU64::new(self.convert_bytes),
         })
+    }
+
+    /// Where those of a view begin.
+    pub(super) fn offset(&self, view: usize) -> u32 {
+        (view as u64 * self.stride) as u32
     }
 
     pub(super) fn memory(&self) -> [MemoryItem; 2] {
@@ -158,10 +182,11 @@ impl Uniforms {
     }
 }
 
-/// Size of the receivers' buffer: views, their count, nine scalars, settings.
-pub(super) fn bytes(description: &Description, views: u32) -> u64 {
+/// Size of the receivers' buffer: views, ranges of several lights, the views' count, nine scalars, settings.
+pub(super) fn bytes(description: &Description, options: &Options) -> u64 {
     let scalars = 4 * (10 + description.uniforms.len() as u64);
-    (u64::from(views) * view_bytes(description) + scalars).next_multiple_of(16)
+    let lights = if options.lights > 1 { 16 * u64::from(options.lights) } else { 0 };
+    (u64::from(options.views) * view_bytes(description) + lights + scalars).next_multiple_of(16)
 }
 
 /// Size of one view's part of the receivers' buffer.
@@ -169,10 +194,10 @@ pub(super) fn view_bytes(description: &Description) -> u64 {
     PerView::of(description).bytes()
 }
 
-/// Size of one view's convert settings: blur weights, the rows that make depth linear, the blur's reach, settings and what each view
-/// has of its own.
+/// Size of one view's convert settings: blur weights, the rows that make depth linear, tile and layer, the blur's reach, settings
+/// and what each view has of its own.
 fn convert_bytes(settings: usize) -> u64 {
-    (4 * (MOST_SIDE as u64 + 9 + settings as u64)).next_multiple_of(16)
+    (4 * (MOST_SIDE as u64 + 15 + settings as u64)).next_multiple_of(16)
 }
 
 /// What follows `views` and `view_count`: size, bias, settings.
@@ -198,38 +223,56 @@ fn extend(bytes: &mut Vec<u8>, numbers: impl Iterator<Item = f32>) {
     }
 }
 
-/// `ShadowUniforms` of the receiver's glue, with blank views up to `room`.
-fn receiver_bytes(
+/// Origin and size.
+fn numbers(tile: &Tile) -> [f32; 4] {
+    let Tile { origin: [x, y], size: Size { width, height }, .. } = *tile;
+    [x, y, width, height].map(|texels| texels as f32)
+}
+
+/// `ShadowUniforms` of the receiver's glue begins with them: views, and blank ones up to `room`.
+fn view_bytes_of<'a>(
     bytes: &mut Vec<u8>,
-    views: &[View],
+    placed: impl Iterator<Item = (&'a View, &'a Tile)>,
     room: usize,
-    reach: [f32; 2],
+    reach_texels: f32,
     per_view: &PerView,
-    scalars: &[f32],
 ) {
-    let blank = <ShadowView as bytemuck::Zeroable>::zeroed();
     let stride = per_view.bytes() as usize;
     bytes.clear();
-    for i in 0..room {
+    for (i, (view, tile)) in placed.enumerate() {
         bytes.resize(i * stride, 0);
         // Receivers take all depth as growing; maps of reversed depth are read likewise.
-        let view = views.get(i).map(View::forward).map_or(blank, |v| ShadowView {
+        let v = view.forward();
+        let tile_numbers = numbers(tile);
+        // A lookup within half a texel of the border would read beyond it; so does a kernel.
+        let reach = |texels: f32| (reach_texels * (1.0 / texels)).min(0.499);
+        let view = ShadowView {
             clip_from_world: v.clip_from_world.to_cols_array_2d(),
             depth_plane: v.depth_plane.to_array(),
             to_light: v.to_light.to_array(),
             linear_over: v.linear_from_clip[0].to_array(),
             linear_under: v.linear_from_clip[1].to_array(),
+            tile: tile_numbers,
             texel_world: v.texel_world,
-            reach_x: reach[0],
-            reach_y: reach[1],
-            padding: 0.0,
-        });
+            reach_x: reach(tile_numbers[2]),
+            reach_y: reach(tile_numbers[3]),
+            layer: tile.layer,
+        };
         bytes.extend_from_slice(bytemuck::bytes_of(&view));
-        extend(bytes, views.get(i).into_iter().flat_map(|view| per_view.at(view.texel_world)));
+        extend(bytes, per_view.at(view.texel_world));
     }
     bytes.resize(room * stride, 0);
-    bytes.extend_from_slice(&(views.len() as u32).to_ne_bytes());
-    bytes.extend_from_slice(bytemuck::cast_slice(scalars));
+}
+
+/// Of each light the first of its views, and the one behind its last; nothing of those up to `room`.
+fn light_bytes(bytes: &mut Vec<u8>, of_lights: impl Iterator<Item = usize>, room: usize) {
+    let end = bytes.len() + 16 * room;
+    let mut first = 0;
+    for count in of_lights {
+        bytes.extend_from_slice(bytemuck::cast_slice(&[first, first + count as u32, 0, 0]));
+        first += count as u32;
+    }
+    bytes.resize(end, 0);
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! From the casters' depth to what a technique keeps, alone or fused with the rows of a blur.
 
-use super::{Place, Run, Slot, Step, blur, combine, targets};
+use super::{FilterStep, Holder, Place, Span, blur, combine, targets};
 use crate::{
     describe::{Combine, Encode, Map},
     kernel::Kernel,
@@ -11,6 +11,11 @@ use crate::{
 const STRAIGHT: &str = "(convert.linear_over.z * depth + convert.linear_over.w) / (convert.linear_under.z * depth + convert.linear_under.w)";
 /// Linear depth of `depth` at `uv` in any picture.
 const WARPED: &str = "raster_linear(vec3f(2.0 * uv.x - 1.0, 1.0 - 2.0 * uv.y, depth), convert.linear_over, convert.linear_under)";
+
+/// `place` of a position in a texture that is the view's, and its `uv` in the picture.
+const WHOLE: &str = "    let uv = position / vec2f(textureDimensions(casters));\n    let place = uv;\n";
+/// The same where the view is a part of a texture; beyond the view's edge the nearest that is in it.
+const PLACED: &str = "    let at = clamp(position - convert.tile.xy, vec2f(0.5), convert.tile.zw - 0.5);\n    let uv = at / convert.tile.zw;\n    let place = (convert.tile.xy + at) / vec2f(textureDimensions(casters));\n";
 
 /// WGSL that gives encoded texels: `convert_source(p, which)` and `convert_layer(source, layer)`.
 #[derive(Debug)]
@@ -30,6 +35,7 @@ impl Source {
         };
         let glue = include_str!("convert/depth.wgsl.in")
             .replace("{members}", &members)
+            .replace("{place}", if composition.tiled { PLACED } else { WHOLE })
             .replace("{linear}", if composition.warped { WARPED } else { STRAIGHT })
             .replace("{kind}", kind)
             .replace("{call}", &format!("{function}(source, layer)"));
@@ -47,34 +53,34 @@ impl Source {
     }
 
     /// Encodes layers of a map.
-    pub(super) fn plain(&self, run: Run) -> Step {
-        let stores: String = layers(run)
+    pub(super) fn plain(&self, span: Span) -> FilterStep {
+        let stores: String = layers(span)
             .map(|(i, layer)| format!("    targets.layer_{i} = convert_layer(source, {layer}u);\n"))
             .collect();
         let body = format!("    let source = convert_source(position.xy, 0u);\n{stores}");
-        run.step("convert", self.fragment(run, &body), CASTERS, run.kept(0))
+        span.step("convert", self.fragment(span, &body), CASTERS, span.kept(0))
     }
 
     /// Encodes the depths of caster passes from `first` on, at most four, as the channels of a layer.
-    pub(super) fn channels(&self, first: u32, casts: u32, run: Run) -> Step {
+    pub(super) fn channels(&self, first: u32, casts: u32, span: Span) -> FilterStep {
         let count = (casts - first).min(4);
         let body: String = (0..count)
             .map(|cast| {
                 let source = format!("convert_source(position.xy, {cast}u)");
-                format!("    targets.layer_0[{cast}] = convert_layer({source}, {}u)[{cast}];\n", run.first)
+                format!("    targets.layer_0[{cast}] = convert_layer({source}, {}u)[{cast}];\n", span.first)
             })
             .collect();
-        let from = Place { slot: Slot::Casts { first, count, of: casts }, layer: 0, mip: 0 };
-        let step = run.step("convert", self.fragment(run, &body), from, run.kept(0));
-        Step { source_layers: count, ..step }
+        let from = Place { holder: Holder::Casts { first, count, of: casts }, layer: 0, mip: 0 };
+        let step = span.step("convert", self.fragment(span, &body), from, span.kept(0));
+        FilterStep { source_layers: count, ..step }
     }
 
     /// Encodes layers of a map and blurs them along x, into scratch.
-    pub(super) fn rows(&self, kernel: &Kernel, how: Combine, run: Run) -> Step {
+    pub(super) fn rows(&self, kernel: &Kernel, how: Combine, span: Span) -> FilterStep {
         let mut body: String =
-            layers(run).map(|(i, _)| format!("    var sum_{i} = combine_none();\n")).collect();
+            layers(span).map(|(i, _)| format!("    var sum_{i} = combine_none();\n")).collect();
         body += &blur::taps(kernel, "convert", |offset, weight| {
-            let sums = layers(run).map(|(i, layer)| {
+            let sums = layers(span).map(|(i, layer)| {
                 format!("    sum_{i} = combine_add(sum_{i}, {weight}, convert_layer(source, {layer}u));\n")
             });
             format!(
@@ -82,24 +88,24 @@ impl Source {
                 sums.collect::<String>()
             )
         });
-        for (i, _) in layers(run) {
+        for (i, _) in layers(span) {
             body += &format!("    targets.layer_{i} = combine_result(sum_{i});\n");
         }
-        let shader = combine(how) + &self.fragment(run, &body);
-        run.step("convert", shader, CASTERS, run.scratch())
+        let shader = combine(how) + &self.fragment(span, &body);
+        span.step("convert", shader, CASTERS, span.scratch())
     }
 
-    fn fragment(&self, run: Run, body: &str) -> String {
+    fn fragment(&self, span: Span, body: &str) -> String {
         let end = include_str!("convert/fragment.wgsl.in")
-            .replace("{targets}", &targets(run.count))
+            .replace("{targets}", &targets(span.count))
             .replace("{body}", body);
         self.wgsl.clone() + &end
     }
 }
 
-const CASTERS: Place = Place { slot: Slot::Casters, layer: 0, mip: 0 };
+const CASTERS: Place = Place { holder: Holder::Casters, layer: 0, mip: 0 };
 
 /// Number within the run, and layer of the map.
-fn layers(run: Run) -> impl Iterator<Item = (u32, u32)> {
-    (0..run.count).map(move |i| (i, run.first + i))
+fn layers(span: Span) -> impl Iterator<Item = (u32, u32)> {
+    (0..span.count).map(move |i| (i, span.first + i))
 }

@@ -20,6 +20,10 @@ pub(crate) struct Composition {
     pub(crate) asks: bool,
     /// Whether views may be warped.
     pub(crate) warped: bool,
+    /// Whether views may be parts of layers.
+    pub(crate) tiled: bool,
+    /// Most views and lights.
+    pub(super) most: [u32; 2],
     /// The technique's file and all that it needs, needs first.
     library: ShaderText,
     /// All that lookups take but for what is bound.
@@ -42,12 +46,17 @@ impl Composition {
     /// Puts the WGSL of a description together.
     ///
     /// # Errors
-    /// [`Unsupported::Description`].
+    /// [`Unsupported::Description`], [`Unsupported::Tiles`].
     pub(crate) fn new(description: Description, options: &Options) -> Result<Self, Unsupported> {
         let wrong = |error| Unsupported::Description { technique: description.about.name.into(), error };
         description.check().map_err(wrong)?;
-        let slots = filled(&description);
+        let tiled = options.layers.is_some();
+        let slots = filled(&description, tiled);
         let library = ShaderText::library(&description, &slots).map_err(wrong)?;
+        // What never asks where views lie takes each for a layer.
+        if tiled && !library.filled.contains(&"tile_placed") {
+            return Err(Unsupported::Tiles { technique: description.about.name.into() });
+        }
         let mut looked_up = library.clone();
         looked_up.need("tile", &slots).map_err(wrong)?;
         looked_up.add(&["receiver"]);
@@ -55,7 +64,8 @@ impl Composition {
         if asks {
             looked_up.add(&["record"]);
         }
-        Ok(Self { description, asks, warped: options.warped, library, looked_up })
+        let (warped, most) = (options.warped, [options.views, options.lights]);
+        Ok(Self { description, asks, warped, tiled, most, library, looked_up })
     }
 
     /// Whether all that is compared with stored depth can be turned around.
@@ -89,8 +99,14 @@ impl Composition {
 }
 
 /// The files that fill slots: what a technique says, and what follows from where views lie.
-fn filled(description: &Description) -> Vec<&'static str> {
-    description.slots.iter().copied().chain(["tile_whole"]).collect()
+fn filled(description: &Description, tiled: bool) -> Vec<&'static str> {
+    let placed = |file: &&'static str| match *file {
+        // The sampler knows the texture's edges alone.
+        "level_hardware" if tiled => "level_placed",
+        file => file,
+    };
+    let tile = if tiled { "tile_placed" } else { "tile_whole" };
+    description.slots.iter().map(placed).chain([tile]).collect()
 }
 
 impl ShaderText {

@@ -7,7 +7,7 @@ use crate::{
     describe::Technique,
     error::Unsupported,
     map::{DEPTH_FORMAT, Options},
-    pass::{self, Slot, Work},
+    pass::{self, Holder, Work},
 };
 use wgpu::TextureFormat;
 
@@ -40,13 +40,13 @@ impl Shader {
         let plan = cast::plan(&composition, device, options);
         let holed = cutout.and_then(|wgsl| plan.cutout(wgsl));
         let mut shaders: Vec<Self> = plan.shaders().into_iter().chain(holed).collect();
-        for step in pass::plan(&composition, device, options.size) {
-            let format = |slot| match slot {
-                Slot::Map(i) | Slot::Scratch(i) => composition.description.maps[i].format,
-                Slot::Casters | Slot::Casts { .. } => DEPTH_FORMAT,
+        for step in pass::filter_steps(&composition, device, options.size) {
+            let format = |holder| match holder {
+                Holder::Map(i) | Holder::Scratch(i) => composition.description.maps[i].format,
+                Holder::Casters | Holder::Casts { .. } => DEPTH_FORMAT,
             };
             let targets = match step.work {
-                Work::Draw => step.targets.iter().map(|target| format(target.slot)).collect(),
+                Work::Draw => step.targets.iter().map(|target| format(target.holder)).collect(),
                 Work::Lanes(_) => Vec::new(),
             };
             let shader = Self { pass: step.label, text: step.shader, targets };
@@ -72,6 +72,6 @@ impl ShaderText {
     ) -> Result<Self, Unsupported> {
         let composition = Composition::of(technique, device, options)?;
         let plan = cast::plan(&composition, device, options);
-        Ok(composition.receiver(plan.as_ref(), options.views, (group, 0)))
+        Ok(composition.receiver(plan.as_ref(), (group, 0)))
     }
 }

@@ -18,31 +18,79 @@ const ROUNDING: &str = "4.8e-7";
 impl Composition {
     /// `shadow_visibility` and everything it needs, bound in a group from a binding on; it may call the user's
     /// `shadow_covers` about cut-outs.
-    pub(crate) fn receiver(&self, plan: &dyn Plan, views: u32, at: (u32, u32)) -> ShaderText {
+    pub(crate) fn receiver(&self, plan: &dyn Plan, at: (u32, u32)) -> ShaderText {
         let (group, first) = at;
         let description = &self.description;
-        let mut glue = uniforms(description, views, at);
+        let mut glue = uniforms(description, self.most, at);
         glue += &settings::accessors(self, Reader::Receiver);
         let arguments = bindings(&mut glue, description, at);
         glue += &plan.lookups(group, first + description.bindings.len() as u32 + 1);
-        glue += &function(description, &arguments, "visibility", ["f32", "1.0"]);
+        glue += &self.function(&arguments, "visibility", ["f32", "1.0"]);
         if !description.classes.is_empty() {
-            glue += &function(description, &arguments, "class", ["u32", "0u"]);
+            glue += &self.function(&arguments, "class", ["u32", "0u"]);
         }
         let mut shader = self.looked_up.clone();
         shader.push("shadow_visibility", &glue);
         shader.prefix = Some(super::names::PREFIX.into());
         shader
     }
+
+    /// `shadow_visibility` or `shadow_class`, with its type and what it is where there is no view.
+    fn function(&self, arguments: &str, kind: &str, [result, outside]: [&str; 2]) -> String {
+        let Self { description, most: [_, lights], .. } = self;
+        let name = description.about.name;
+        let (depth, slopes, scale, rounding) = match description.depth_space {
+            DepthSpace::Raster => (
+                "ndc.z",
+                "vec2f(s.z, t.z)",
+                "raster_slope(ndc.xyz, linear, (*seen).linear_over, (*seen).linear_under)",
+                ROUNDING.to_string(),
+            ),
+            DepthSpace::Linear => (
+                "linear",
+                "vec2f(dot((*seen).depth_plane.xyz, tangent), dot((*seen).depth_plane.xyz, bitangent))",
+                "1.0",
+                format!(
+                    "{ROUNDING} / raster_slope(ndc.xyz, linear, (*seen).linear_over, (*seen).linear_under)"
+                ),
+            ),
+        };
+        // Other families do not compare texels one by one: what they do with the plane is no bias.
+        let followed = match description.about.family {
+            Family::Comparison => "receiver_followed(plane, shadow.receiver_plane, diagonal)",
+            Family::Basis | Family::Geometry => "plane",
+        };
+        let call = format!("{name}_{kind}({arguments}uv, view, depth, {followed}, gradient_x, gradient_y)");
+        include_str!("visibility.wgsl.in")
+            .replace("{which}", if *lights > 1 { "light: u32, " } else { "" })
+            .replace("{range}", &range(*lights))
+            .replace("{kind}", kind)
+            .replace("{result}", result)
+            .replace("{outside}", outside)
+            .replace("{depth}", depth)
+            .replace("{slopes}", slopes)
+            .replace("{scale}", scale)
+            .replace("{rounding}", &rounding)
+            .replace("{call}", &call)
+    }
+}
+
+/// The views among which a receiver's is found: all, or those of a light. No light has numbers beyond the most.
+fn range(lights: u32) -> String {
+    match lights {
+        1 => "vec2u(0u, shadow.view_count)".into(),
+        _ => format!("select(vec2u(0u), shadow.lights[min(light, {}u)].xy, light < {lights}u)", lights - 1),
+    }
 }
 
 /// The structs of uniforms, which `map/uniforms.rs` fills.
-fn uniforms(description: &Description, views: u32, (group, first): (u32, u32)) -> String {
+fn uniforms(description: &Description, [views, lights]: [u32; 2], (group, first): (u32, u32)) -> String {
     let per_view: String = settings::per_view(description).map(|name| format!(", {name}: f32")).collect();
     let once: String = settings::once(description).map(|name| format!("    {name}: f32,\n")).collect();
+    let ranges = if lights > 1 { format!(" lights: array<vec4u, {lights}>,") } else { String::new() };
     format!(
-        "struct ShadowView {{ clip_from_world: mat4x4f, depth_plane: vec4f, to_light: vec4f, linear_over: vec4f, linear_under: vec4f, texel_world: f32, reach_x: f32, reach_y: f32, padding: f32{per_view} }}\n\
-         struct ShadowUniforms {{\n    views: array<ShadowView, {views}>,\n    view_count: u32, width: f32, height: f32,\n    constant_texels: f32, slope_texels: f32, normal_offset_texels: f32, grazing_offset_texels: f32,\n    receiver_plane: f32, constant_depth: f32, float_steps: f32,\n{once}}}\n\
+        "struct ShadowView {{ clip_from_world: mat4x4f, depth_plane: vec4f, to_light: vec4f, linear_over: vec4f, linear_under: vec4f, tile: vec4f, texel_world: f32, reach_x: f32, reach_y: f32, layer: u32{per_view} }}\n\
+         struct ShadowUniforms {{\n    views: array<ShadowView, {views}>,{ranges}\n    view_count: u32, width: f32, height: f32,\n    constant_texels: f32, slope_texels: f32, normal_offset_texels: f32, grazing_offset_texels: f32,\n    receiver_plane: f32, constant_depth: f32, float_steps: f32,\n{once}}}\n\
          @group({group}) @binding({first}) var<uniform> shadow: ShadowUniforms;\n"
     )
 }
@@ -56,42 +104,6 @@ fn bindings(glue: &mut String, description: &Description, (group, first): (u32, 
         let _ = write!(arguments, "{name}, ");
     }
     arguments
-}
-
-/// `shadow_visibility` or `shadow_class`, with its type and what it is where there is no view.
-fn function(description: &Description, arguments: &str, kind: &str, [result, outside]: [&str; 2]) -> String {
-    let name = description.about.name;
-    let (depth, slopes, scale, rounding) = match description.depth_space {
-        DepthSpace::Raster => (
-            "ndc.z",
-            "vec2f(s.z, t.z)",
-            "raster_slope(ndc.xyz, linear, (*light).linear_over, (*light).linear_under)",
-            ROUNDING.to_string(),
-        ),
-        DepthSpace::Linear => (
-            "linear",
-            "vec2f(dot((*light).depth_plane.xyz, tangent), dot((*light).depth_plane.xyz, bitangent))",
-            "1.0",
-            format!(
-                "{ROUNDING} / raster_slope(ndc.xyz, linear, (*light).linear_over, (*light).linear_under)"
-            ),
-        ),
-    };
-    // Other families do not compare texels one by one: what they do with the plane is no bias.
-    let followed = match description.about.family {
-        Family::Comparison => "receiver_followed(plane, shadow.receiver_plane, diagonal)",
-        Family::Basis | Family::Geometry => "plane",
-    };
-    let call = format!("{name}_{kind}({arguments}uv, view, depth, {followed}, gradient_x, gradient_y)");
-    include_str!("visibility.wgsl.in")
-        .replace("{kind}", kind)
-        .replace("{result}", result)
-        .replace("{outside}", outside)
-        .replace("{depth}", depth)
-        .replace("{slopes}", slopes)
-        .replace("{scale}", scale)
-        .replace("{rounding}", &rounding)
-        .replace("{call}", &call)
 }
 
 /// WGSL type of a binding.

@@ -50,14 +50,22 @@ pub(crate) fn accessors(composition: &Composition, reader: Reader) -> String {
             };
             format!("fn {name}(view: u32) -> f32 {{ return {read}; }}\n")
         });
-    once.chain(per_view).chain([places(reader)]).collect()
+    once.chain(per_view).chain([places(reader, composition.tiled)]).collect()
 }
 
-/// `shadow_size() -> vec2f`, texels of a layer. Numbers where nothing is looked up.
-fn places(reader: Reader) -> String {
-    let size = match reader {
-        Reader::Receiver => "vec2f(shadow.width, shadow.height)",
-        Reader::Convert | Reader::Alone => "vec2f(1.0)",
+/// `shadow_size() -> vec2f`, texels of a layer; where views may be parts of one `shadow_place(view: u32) -> vec4f`, origin
+/// and size, and `shadow_layer(view: u32) -> u32`. Numbers where nothing is looked up.
+fn places(reader: Reader, tiled: bool) -> String {
+    let [size, tile, layer] = match reader {
+        Reader::Receiver => {
+            ["vec2f(shadow.width, shadow.height)", "shadow.views[view].tile", "shadow.views[view].layer"]
+        }
+        Reader::Convert | Reader::Alone => ["vec2f(1.0)", "vec4f(0.0, 0.0, 1.0, 1.0)", "view"],
     };
-    format!("fn shadow_size() -> vec2f {{ return {size}; }}\n")
+    let size = format!("fn shadow_size() -> vec2f {{ return {size}; }}\n");
+    let placed = format!(
+        "fn shadow_place(view: u32) -> vec4f {{ return {tile}; }}\n\
+         fn shadow_layer(view: u32) -> u32 {{ return {layer}; }}\n"
+    );
+    if tiled { size + &placed } else { size }
 }

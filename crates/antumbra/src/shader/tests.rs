@@ -18,7 +18,7 @@ fn options() -> Options {
 /// What receivers call, and whatever that binds in group 2.
 fn receiver(composition: &Composition, device: &Capabilities) -> ShaderText {
     let options = options();
-    composition.receiver(cast::plan(composition, device, &options).as_ref(), options.views, (2, 0))
+    composition.receiver(cast::plan(composition, device, &options).as_ref(), (2, 0))
 }
 
 /// Everything and nothing of what devices may lack.
@@ -131,11 +131,16 @@ fn every_shared_file_validates_with_its_needs_and_nothing_else() {
     for (stem, _) in FILES {
         for parts in [
             ["blur_fixed", "level_hardware", "words_1", "reference_exact", "points_map", "tile_whole"],
-            ["blur_adaptive", "level_manual", "words_2", "reference_stepped", "points_texel", "tile_whole"],
+            ["blur_adaptive", "level_manual", "words_2", "reference_stepped", "points_texel", "tile_placed"],
             ["blur_fixed", "level_logarithmic", "words_4", "reference_exact", "points_map", "tile_whole"],
         ] {
             let mut text = ShaderText::of(stem, &parts).unwrap().text();
-            for function in ["shadow_blur(view: u32) -> f32", "shadow_size() -> vec2f"] {
+            for function in [
+                "shadow_blur(view: u32) -> f32",
+                "shadow_size() -> vec2f",
+                "shadow_place(view: u32) -> vec4f",
+                "shadow_layer(view: u32) -> u32",
+            ] {
                 let (name, result) = (function.split('(').next(), function.split("-> ").nth(1));
                 if name.is_some_and(|name| text.contains(&format!("{name}("))) {
                     text += &format!("fn {function} {{ return {}(); }}\n", result.unwrap_or_default());

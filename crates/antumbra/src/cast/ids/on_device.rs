@@ -3,9 +3,9 @@
 use super::{FIRST, IdPlan, VERTICES};
 use crate::{
     cast::{
-        Cast, CasterPass, Seen, Site, Step, Store,
+        Cast, CasterPass, Owner, Seen, Site, Step, Store,
         arrays::{Array, Image, Storage, called},
-        objects::{self, UNIFORM},
+        objects::{self, OF_VIEW},
         pass::{self, MeshPipeline},
         pieces::Pieces,
         pipeline::Recipe,
@@ -16,6 +16,7 @@ use crate::{
     describe::Coverage,
     light::{Size, View},
     map::{Lifetime, MemoryItem, Pipelines, Probe, Textures, compute_pass},
+    tile::Tile,
 };
 use std::ops::Deref;
 use wgpu::{
@@ -32,11 +33,11 @@ struct CasterStep {
     words: [u32; 2],
 }
 
-/// What a step does, bound for each view.
+/// What a step does, bound for each layer.
 #[derive(Debug)]
 enum Bound {
     Draw(Vec<BindGroup>),
-    Compute { label: &'static str, pipeline: ComputePipeline, workgroups: u32, groups: Vec<BindGroup> },
+    Compute { label: &'static str, pipeline: ComputePipeline, texels: u32, groups: Vec<BindGroup> },
 }
 
 /// A store's pipelines, buffers and textures.
@@ -52,6 +53,9 @@ pub(super) struct IdCast {
     views: CasterViews,
     steps: Vec<Bound>,
     uniforms: Buffer,
+    /// From one of the uniforms to the next; how many of them a step has.
+    stride: u64,
+    most_views: u32,
     allocated: Allocated,
     totals: Option<usize>,
     explanation: String,
@@ -72,14 +76,14 @@ struct Entries {
 }
 
 impl Allocated {
-    fn new(device: &wgpu::Device, storage: &Storage, name: &str, views: u32) -> Self {
+    fn new(device: &wgpu::Device, storage: &Storage, name: &str, layers: u32) -> Self {
         let array = |(array, split): &(Array, Split)| {
             let label = format!("{name} {}", array.title);
             (array.clone(), Pieces::new(device, &label, *split, array.element.bytes()))
         };
         Self {
             arrays: storage.arrays.iter().map(array).collect(),
-            images: storage.images.iter().map(|i| image(device, i, views)).collect(),
+            images: storage.images.iter().map(|i| image(device, i, layers)).collect(),
         }
     }
 
@@ -90,7 +94,7 @@ impl Allocated {
             false => (ShaderStages::COMPUTE, ShaderStages::COMPUTE),
         };
         let by_vertices = plan.site.device.stores_from_vertices() && draws;
-        let mut types = vec![(both, UNIFORM); FIRST as usize];
+        let mut types = vec![(both, OF_VIEW); FIRST as usize];
         let mut arrays = Vec::new();
         for (i, (array, pieces)) in self.arrays.iter().enumerate() {
             if called(array.name, &text) {
@@ -110,17 +114,17 @@ impl Allocated {
         Entries { types, arrays, images }
     }
 
-    /// What a step binds for a view, behind `own`: all of its arrays, the view's part of its images.
+    /// What a step binds for views in a layer, behind `own`: all of its arrays, the layer's part of its images.
     fn bind(
         &self,
         device: &wgpu::Device,
         (label, layout): (&str, &BindGroupLayout),
         own: [BindingResource<'_>; FIRST as usize],
-        (entries, view): (&Entries, u32),
+        (entries, layer): (&Entries, u32),
     ) -> BindGroup {
         let part = |i: &usize| {
             let (image, texture, _) = &self.images[*i];
-            array_view(texture, view * image.layers, image.layers)
+            array_view(texture, layer * image.layers, image.layers)
         };
         let parts: Vec<TextureView> = entries.images.iter().map(part).collect();
         let buffers = entries.arrays.iter().flat_map(|i| self.arrays[*i].1.bindings());
@@ -149,7 +153,7 @@ impl IdCast {
         let (store, site) = (&plan.store, &plan.site);
         let (name, steps) = (store.name(), store.steps(site));
         let views = CasterViews::new(device, (site.size, site.views), &[Coverage::Touched]);
-        let allocated = Allocated::new(device, &plan.storage, name, site.views);
+        let allocated = Allocated::new(device, &plan.storage, name, site.layers);
         let depth = if store.keeps_depth() { CompareFunction::Less } else { CompareFunction::Always };
         let drawn = allocated.entries(plan, &Step::Draw { words: [0; 2] });
         let layout = objects::layout(device, name, &drawn.types);
@@ -158,26 +162,20 @@ impl IdCast {
             pipelines.caster(&text, &[], |device| recipe(&text, &layout, &[], depth).compile(device))
         };
         let (uniforms, stride) = uniforms(device, &steps, site);
-        let bound = |(number, step): (u32, &Step)| {
+        let bound = |step: &Step| {
             let entries = allocated.entries(plan, step);
             let layout = objects::layout(device, name, &entries.types);
-            let group = |view: u32| {
-                let index = u64::from(number * site.views + view);
-                let step = objects::element::<CasterStep>(&uniforms, index, stride);
-                allocated.bind(
-                    device,
-                    (name, &layout),
-                    [views.binding(view as usize, 0), step],
-                    (&entries, view),
-                )
+            let group = |layer: u32| {
+                let own = [views.binding(0, 0), objects::element::<CasterStep>(&uniforms, 0, stride)];
+                allocated.bind(device, (name, &layout), own, (&entries, layer))
             };
-            let groups = (0..site.views).map(group).collect();
+            let groups = (0..site.layers).map(group).collect();
             match step {
                 Step::Draw { .. } => Bound::Draw(groups),
-                Step::Compute { label, wgsl, workgroups, .. } => Bound::Compute {
+                Step::Compute { label, wgsl, texels, .. } => Bound::Compute {
                     label,
                     pipeline: compute_pipeline(device, label, &layout, &plan.compute_text(wgsl)),
-                    workgroups: *workgroups,
+                    texels: *texels,
                     groups,
                 },
             }
@@ -187,15 +185,25 @@ impl IdCast {
             name,
             size: site.size,
             pipelines: [compiled(false), compiled(true)],
-            steps: (0..).zip(&steps).map(bound).collect(),
+            steps: steps.iter().map(bound).collect(),
             totals: store.totals().and_then(total),
             explanation: store.explain(site),
             layout,
             depth,
             views,
             uniforms,
+            stride,
+            most_views: site.views,
             allocated,
         }
+    }
+}
+
+impl IdCast {
+    /// Dynamic offsets of what a step knows of a view and of itself.
+    fn offsets(&self, step: usize, view: usize) -> [u32; FIRST as usize] {
+        let index = step as u64 * u64::from(self.most_views) + view as u64;
+        [self.views.offset(view), (index * self.stride) as u32]
     }
 }
 
@@ -225,11 +233,11 @@ fn compute_pipeline(
 }
 
 /// A texture with all its layers.
-fn image(device: &wgpu::Device, image: &Image, views: u32) -> (Image, Texture, TextureView) {
+fn image(device: &wgpu::Device, image: &Image, of_views: u32) -> (Image, Texture, TextureView) {
     let Image { title, size: [width, height], layers, .. } = *image;
     let texture = device.create_texture(&wgpu::TextureDescriptor {
         label: Some(title),
-        size: wgpu::Extent3d { width, height, depth_or_array_layers: layers * views },
+        size: wgpu::Extent3d { width, height, depth_or_array_layers: layers * of_views },
         mip_level_count: 1,
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
@@ -237,7 +245,7 @@ fn image(device: &wgpu::Device, image: &Image, views: u32) -> (Image, Texture, T
         usage: wgpu::TextureUsages::STORAGE_BINDING | wgpu::TextureUsages::TEXTURE_BINDING,
         view_formats: &[],
     });
-    let all = array_view(&texture, 0, layers * views);
+    let all = array_view(&texture, 0, layers * of_views);
     (image.clone(), texture, all)
 }
 
@@ -252,8 +260,8 @@ fn array_view(texture: &Texture, base_array_layer: u32, layers: u32) -> TextureV
 }
 
 impl Cast for IdCast {
-    fn write(&self, queue: &wgpu::Queue, views: &[View]) {
-        self.views.write(queue, views);
+    fn write(&self, queue: &wgpu::Queue, views: &[View], tiles: &[Tile]) {
+        self.views.write(queue, views, tiles);
     }
 
     fn encode(
@@ -265,25 +273,36 @@ impl Cast for IdCast {
         draw: &mut dyn FnMut(&mut CasterPass<'_>),
     ) {
         for (array, pieces) in self.allocated.arrays.iter().filter(|(array, _)| array.cleared) {
-            let first = if array.per_view { seen.view as u64 * array.length } else { 0 };
+            let owner = match array.owner {
+                Owner::View => seen.view,
+                // Views before have left theirs there.
+                Owner::Layer if !seen.first => continue,
+                Owner::Layer => seen.layer(),
+                Owner::Shared => 0,
+            };
+            let first = owner as u64 * array.length;
             pieces.clear(encoder, first..first + array.length);
         }
         let writes = self.depth != CompareFunction::Always;
-        for step in &self.steps {
+        for (number, step) in self.steps.iter().enumerate() {
+            let offsets = self.offsets(number, seen.view);
             match step {
                 Bound::Draw(groups) => {
                     let store = if writes { StoreOp::Store } else { StoreOp::Discard };
-                    let depth = (textures.caster_target(seen.view, 0), store);
+                    let depth = (textures.caster_target(seen.layer(), 0, seen.first), store);
                     let pass = pass::begin(encoder, None, depth, probe.pass("cast", seen.view));
                     let pipeline = &self.pipelines[perspective(seen.from) as usize];
-                    let meshes = MeshPipeline { pipeline, group: &groups[seen.view], indexed: false };
+                    let group = &groups[seen.layer()];
+                    let meshes = MeshPipeline { pipeline, group, offsets: &offsets, indexed: false };
                     draw(&mut CasterPass::new(pass, seen, Some(meshes)));
                 }
-                Bound::Compute { label, pipeline, workgroups, groups } => {
+                Bound::Compute { label, pipeline, texels, groups } => {
                     let mut pass = compute_pass(encoder, label, probe.pass(label, seen.view));
                     pass.set_pipeline(pipeline);
-                    pass.set_bind_group(0, &groups[seen.view], &[]);
-                    pass.dispatch_workgroups(*workgroups, 1, 1);
+                    pass.set_bind_group(0, &groups[seen.layer()], &offsets);
+                    let Size { width, height } = seen.tile.size;
+                    let all = u64::from(width) * u64::from(height);
+                    pass.dispatch_workgroups(all.div_ceil(u64::from(*texels)) as u32, 1, 1);
                 }
             }
         }
@@ -336,7 +355,8 @@ impl Cast for IdCast {
             .iter()
             .map(|(image, texture, _)| MemoryItem::texture(&name(image.title), texture, Lifetime::Kept));
         let arrays = self.allocated.arrays.iter().map(|(array, pieces)| {
-            let lifetime = if array.per_view { Lifetime::Kept } else { Lifetime::Transient };
+            let shared = array.owner == Owner::Shared;
+            let lifetime = if shared { Lifetime::Transient } else { Lifetime::Kept };
             let item = MemoryItem { lifetime, ..pieces.memory(&name(array.title)) };
             if array.length % texels == 0 { item.texels(self.size) } else { item }
         });

@@ -37,24 +37,30 @@ fn rust_view(description: &Description) -> Layout {
         row!(to_light),
         row!(linear_over),
         row!(linear_under),
+        row!(tile),
         row!(texel_world),
         row!(reach_x),
         row!(reach_y),
-        row!(padding),
+        row!(layer),
     ];
     let base = VIEW_BYTES as u32;
     rows.extend((0..).zip(settings::per_view(description)).map(|(i, name)| (name, base + 4 * i, 4)));
     (rows, view_bytes(description) as u32)
 }
 
+/// With room for three views.
+fn options() -> Options {
+    Options::from(Size::square(64)).views(3)
+}
+
 fn composed(technique: &dyn Technique) -> Composition {
-    Composition::new(technique.describe(&Capabilities::least()).unwrap(), &Size::square(64).into()).unwrap()
+    Composition::new(technique.describe(&Capabilities::least()).unwrap(), &options()).unwrap()
 }
 
 /// The receiver's text for three views.
 fn receiver(composition: &Composition) -> String {
-    let (device, options) = (Capabilities::least(), Options::from(Size::square(8)).views(3));
-    composition.receiver(cast::plan(composition, &device, &options).as_ref(), 3, (0, 0)).text()
+    let (device, options) = (Capabilities::least(), options());
+    composition.receiver(cast::plan(composition, &device, &options).as_ref(), (0, 0)).text()
 }
 
 fn same(wgsl: &str, description: &Description) -> Result<(), String> {
@@ -99,7 +105,10 @@ fn the_view_is_laid_out_alike_in_rust_and_wgsl() {
 fn written(description: &Description, bias: BiasTerms, size: Size, views: &[View], room: usize) -> Vec<u8> {
     let mut bytes = Vec::new();
     let per_view = PerView::of(description);
-    receiver_bytes(&mut bytes, views, room, [0.25, 0.125], &per_view, &scalars(description, bias, size));
+    let tile = Tile { layer: 3, origin: [5, 6], size: Size { width: 8, height: 16 } };
+    view_bytes_of(&mut bytes, views.iter().map(|view| (view, &tile)), room, 2.0, &per_view);
+    bytes.extend_from_slice(&(views.len() as u32).to_ne_bytes());
+    bytes.extend_from_slice(bytemuck::cast_slice(&scalars(description, bias, size)));
     bytes
 }
 
@@ -173,7 +182,9 @@ fn second_view(spec: &str, description: &Description, module: &naga::Module, byt
     assert_eq!(float(base + rows[2].1), 24.0);
     assert_eq!(float(base + rows[3].1 + 4), 32.0);
     assert_eq!(float(base + rows[4].1 + 12), 1.0);
-    let tail: Vec<f32> = rows[5..].iter().map(|(_, offset, _)| float(base + offset)).collect();
+    let tile: Vec<f32> = (0..4).map(|i| float(base + rows[5].1 + 4 * i)).collect();
+    assert_eq!(tile, [5.0, 6.0, 8.0, 16.0]);
+    let tail: Vec<f32> = rows[6..].iter().map(|(_, offset, _)| float(base + offset)).collect();
     // 140 and 1400 world units in texels of 28; the latter is more than 31 texels.
     // A box of five has the variance (5² − 1) / 12, the Gaussian of σ = 1.1 by its taps.
     let further = match spec.split(['.', ',']).next().unwrap() {
@@ -182,7 +193,7 @@ fn second_view(spec: &str, description: &Description, module: &naga::Module, byt
         "poisson" => vec![31.0],
         _ => Vec::new(),
     };
-    let expected = [vec![28.0, 0.25, 0.125, 0.0], further].concat();
+    let expected = [vec![28.0, 0.25, 0.125, f32::from_bits(3)], further].concat();
     assert_eq!(tail.len(), expected.len(), "{spec}");
     assert!(tail.iter().zip(&expected).all(|(f, e)| (f - e).abs() < 1e-6), "{spec}: {tail:?}");
     assert!(bytes[2 * base as usize..3 * base as usize].iter().all(|b| *b == 0));
@@ -193,8 +204,8 @@ fn the_convert_settings_are_floats_in_order() {
     let further = ["esm.classifier=zmax", "esm.classifier=zmax,width=0.1"].map(|spec| parse(spec).unwrap());
     for technique in all().into_iter().chain(further) {
         let composition = composed(technique.as_ref());
-        let steps = pass::plan(&composition, &Capabilities::least(), Size::square(64));
-        for step in steps.iter().filter(|s| s.source.slot == pass::Slot::Casters) {
+        let steps = pass::filter_steps(&composition, &Capabilities::least(), Size::square(64));
+        for step in steps.iter().filter(|s| s.source.holder == pass::Holder::Casters) {
             let module = parse_str(&step.shader).unwrap();
             let (members, _) = layout(&module, "Convert");
             let description = &composition.description;
@@ -202,10 +213,11 @@ fn the_convert_settings_are_floats_in_order() {
                 .chain(settings::once(description))
                 .chain(settings::per_view(description));
             let side = 4 * MOST_SIDE as u32;
-            let rows = [("linear_over", side), ("linear_under", side + 16)];
+            let rows = [("linear_over", side), ("linear_under", side + 16), ("tile", side + 32)];
             let mut expected = vec![("side".to_string(), 0, side)];
             expected.extend(rows.map(|(name, at)| (name.to_string(), at, 16)));
-            expected.extend(names.zip(0..).map(|(name, i)| (name, side + 32 + 4 * i, 4)));
+            expected.push(("size".into(), side + 48, 8));
+            expected.extend(names.zip(0..).map(|(name, i)| (name, side + 56 + 4 * i, 4)));
             assert_eq!(members, expected);
         }
     }
@@ -215,9 +227,9 @@ fn the_convert_settings_are_floats_in_order() {
 #[test]
 fn blurs_read_their_reach_where_it_is_written() {
     let steps = |spec: &str| {
-        pass::plan(&composed(parse(spec).unwrap().as_ref()), &Capabilities::least(), Size::square(64))
+        pass::filter_steps(&composed(parse(spec).unwrap().as_ref()), &Capabilities::least(), Size::square(64))
     };
-    let members = |steps: &[pass::Step], label: &str, name: &str| {
+    let members = |steps: &[pass::FilterStep], label: &str, name: &str| {
         let step = steps.iter().find(|step| step.label == label).unwrap();
         layout(&parse_str(&step.shader).unwrap(), name).0
     };
