@@ -117,6 +117,11 @@ pub struct About {
 ///   [`BiasTerms::receiver_plane`](crate::technique::BiasTerms::receiver_plane) says);
 /// - `ddx`, `ddy`, the change of `uv` from this pixel to the next.
 ///
+/// It reads texels where the view's lie, by functions of the file `tile`, which it needs: `tile_size(view) -> vec2f`, texels;
+/// `tile_layer(view) -> u32`; `tile_uv(view, uv) -> vec2f` for samplers; `tile_texel(view, texel: vec2i) -> vec2i` for loads. Layer
+/// `k` of the `n` that a map has for each view is `tile_layer(view) * n + k`. Without them views cannot be
+/// [tiles](crate::Tile), which such maps refuse.
+///
 /// Functions that composition writes beside it, and that every function may call, read what is set at run
 /// time: `x_NAME() -> f32` for each of [`Description::uniforms`], `x_NAME(view: u32) -> f32` for each of
 /// [`Description::widths`], and what comes with [`Description::blur`] and with what is kept of

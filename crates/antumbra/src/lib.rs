@@ -43,7 +43,7 @@
 //! ```
 //!
 //! The examples are whole programs: `quick_start` and `hello`, `own_shader` (cascades, a larger shader, two
-//! techniques side by side), `own_depth` (a depth pass that the renderer already has), `reversed_depth`, `two_lights`, `triangles`, `cutouts`, `skinning`,
+//! techniques side by side), `own_depth` (a depth pass that the renderer already has), `reversed_depth`, `two_lights`, `two_tiles`, `triangles`, `cutouts`, `skinning`,
 //! `compute` (fog) and `browser` (a page).
 //!
 //! # Versions
@@ -77,8 +77,12 @@
 //! - A point light is six spots with an outer angle of 45° along ±x, ±y and ±z, until there is one: six
 //!   views of one map.
 //! - [`ShadowMap::prepare`] writes buffers through the queue: all passes of a submission see what was written
-//!   last. Two cameras or two lights are two maps; [`Pipelines`] lets them share what was compiled. One
-//!   shader takes one map for now: the functions of all have the same names.
+//!   last. Two cameras are two maps; [`Pipelines`] lets them share what was compiled, and names keep them apart in
+//!   one shader ([`ShaderText::named`]).
+//! - Several lights are as many maps, or one ([`Options::lights`]): [`ShadowMap::prepare_lights`] takes the views of each, and
+//!   `shadow_visibility(light, …)` looks among those of one.
+//! - Each view has a layer of its own, or lies in a [`Tile`] of one ([`Options::tiled`], [`View::at`]): many in few layers,
+//!   each as large as its light deserves, elsewhere in the next frame. Nothing of one is seen in another.
 //!
 //! # Techniques
 //!

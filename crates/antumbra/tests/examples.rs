@@ -23,6 +23,7 @@ example!(own_shader, "../examples/own_shader.rs");
 example!(own_depth, "../examples/own_depth.rs");
 example!(reversed_depth, "../examples/reversed_depth.rs");
 example!(two_lights, "../examples/two_lights.rs");
+example!(two_tiles, "../examples/two_tiles.rs");
 example!(triangles, "../examples/triangles.rs");
 example!(cutouts, "../examples/cutouts.rs");
 example!(compute, "../examples/compute.rs");
@@ -149,6 +150,22 @@ fn two_lights(gpu: &Gpu) {
     assert!(sun[0] < 0.9 * lit[0] && sun[1] < 0.9 * lit[1], "{sun:?} {lit:?}");
 }
 
+/// Each lamp's shadow lacks its own colour alone, though both lie in one layer.
+fn two_tiles(gpu: &Gpu) {
+    let picture = two_tiles::run(&gpu.device, &gpu.queue).unwrap();
+    let top = Vec3::new(0.0, 1.2, 0.0);
+    let colour = |point: Vec3| -> [f32; 2] {
+        let ndc = two_tiles::camera().project_point3(point);
+        let [x, y] = [(0.5 + 0.5 * ndc.x) * WIDTH as f32, (0.5 - 0.5 * ndc.y) * HEIGHT as f32];
+        let pixel = 4 * (y as usize * WIDTH as usize + x as usize);
+        [picture[pixel], picture[pixel + 2]].map(f32::from)
+    };
+    let [red, blue] = two_tiles::LAMPS.map(|lamp| colour(on_ground(top, lamp - top)));
+    let [left, right] = [-0.9, 0.9].map(|x| colour(Vec3::new(x, 0.0, 0.9)));
+    assert!(red[0] < 0.6 * left[0] && red[1] > 0.8 * left[1], "{red:?} {left:?}");
+    assert!(blue[1] < 0.6 * right[1] && blue[0] > 0.8 * right[0], "{blue:?} {right:?}");
+}
+
 /// The rail and the box that moved, by every technique that keeps triangles; bars that are finer than texels, by
 /// the one that keeps all. What keeps depth is refused.
 fn triangles(gpu: &Gpu) {
@@ -211,6 +228,7 @@ fn main() {
     trials.add("own_depth", own_depth);
     trials.add("reversed_depth", reversed_depth);
     trials.add("two_lights", two_lights);
+    trials.add("two_tiles", two_tiles);
     trials.add("triangles", triangles);
     trials.add("cutouts", cutouts);
     trials.add("compute", compute);

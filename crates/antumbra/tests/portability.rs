@@ -96,7 +96,13 @@ fn add(shaders: &mut Shaders, spec: &str, options: &Options, needs: Needs) {
     let asks = if described.classes.is_empty() { "" } else { CLASSIFIES };
     let covers = if options.cutouts && described.storage.keeps_ids() { COVERS } else { "" };
     let receiver = ShaderText::receiver(technique.as_ref(), &device, options, 1).unwrap().text();
-    shaders.add(&format!("{spec}: receiver"), format!("{RECEIVES}{asks}{covers}\n{receiver}"), &[], needs);
+    let mut user = format!("{RECEIVES}{asks}{covers}");
+    if options.lights > 1 {
+        for function in ["shadow_visibility(", "shadow_class("] {
+            user = user.replace(function, &format!("{function}1u, "));
+        }
+    }
+    shaders.add(&format!("{spec}: receiver"), format!("{user}\n{receiver}"), &[], needs);
 }
 
 /// Everything: with one setting at a time on all kinds of devices, with several on the least device and on
@@ -116,6 +122,8 @@ fn library() -> Shaders {
     let browser = Needs { features: Capabilities::OPTIONAL_FEATURES.difference(NATIVE), ..Needs::LEAST };
     for needs in [Needs::LEAST, browser] {
         settings::many().iter().for_each(|spec| add(&mut shaders, spec, &usual, needs));
+        let tiled = usual.clone().tiled(2).lights(2);
+        settings::variants().iter().for_each(|spec| add(&mut shaders, spec, &tiled, needs));
     }
     shaders
 }
@@ -175,8 +183,31 @@ fn visibilities(wgsl: &str) -> BTreeSet<&str> {
     maps.map(|text| &text[text.rfind(|c| !in_name(c)).map_or(0, |i| i + 1)..]).collect()
 }
 
+/// Whether a text tells lights apart: it hands `_visibility` a fifth argument.
+fn tells_lights(wgsl: &str) -> bool {
+    let arguments = |call: &str| {
+        let mut depth = 0;
+        let within = call.chars().take_while(|c| {
+            depth += i32::from(*c == '(') - i32::from(*c == ')');
+            depth >= 0
+        });
+        let within: String = within.collect();
+        let mut depth = 0;
+        1 + within
+            .chars()
+            .filter(|c| {
+                depth += i32::from(*c == '(') - i32::from(*c == ')');
+                depth == 0 && *c == ','
+            })
+            .count()
+    };
+    wgsl.split("_visibility(").skip(1).any(|call| arguments(call) == 5)
+}
+
 fn add_document(shaders: &mut Shaders, name: &str, wgsl: &str) {
-    let (device, options) = (capabilities(Needs::LEAST), Options::from(Size::square(64)).views(4));
+    let lights = if tells_lights(wgsl) { 2 } else { 1 };
+    let (device, options) =
+        (capabilities(Needs::LEAST), Options::from(Size::square(64)).views(4).lights(lights));
     let caster = if wgsl.contains("caster_pancaked(") { CASTER_WGSL } else { "" };
     for technique in technique::all() {
         let name = format!("{name}: {}", technique.about().name);
@@ -200,6 +231,8 @@ fn strings_are_found_in_code_and_comments() {
         "//! const A: &str = \"\n//!     @vertex fn a() {}\";\nlet b: &str = r#\"@fragment fn b() { c(); } \"b\" \"#;\nlet c: &str = \"fn c() {} \";\nlet d: &str = \"no\";",
     );
     assert_eq!(found, ["\n    @vertex fn a() {}", "fn c() {} @fragment fn b() { c(); } \"b\" "]);
+    assert!(tells_lights("shadow_visibility(i, p, n, dpdx(p), f(p, p))"));
+    assert!(!tells_lights("lamp_visibility(p, n, f(p, p), dpdy(p)) + f(i, p)"));
 }
 
 fn naga_accepts_every_shader() {
