@@ -2,7 +2,7 @@
 # make test    everything that must hold before a change lands
 # make bench   times on the fence scene
 # make bench-cpu   what the processor does: instructions and allocations; needs valgrind
-# make docs    the documents with tables, from their templates and docs/results
+# make docs    the documents with tables: from their templates and docs/results, and from the rows of fidelity
 # make results measures anew what docs/results holds of this machine; an hour in which it does nothing else
 # make proof   a technique and a store of somebody else's keep the laws; part of `make test`
 # make setup   what the first three do first: a Vulkan driver if the machine has none
@@ -38,6 +38,7 @@ bench-cpu: setup
 
 docs:
 	$(CARGO) run --release -p antumbra-docs
+	$(CARGO) run --release -p antumbra-reproduce --bin antumbra-fidelity
 
 # Runs a command that prints JSON and keeps that as a result file.
 KEEP = target/release/antumbra-docs keep

@@ -27,12 +27,12 @@ pub fn visibility(gpu: &Gpu, technique: &dyn Technique, caster: f32, receivers: 
 }
 
 /// What `shadow_visibility` answers across the edge of a caster that covers the left half of the map's
-/// texels at depth ¼, for receivers at depth ¾. `positions` are in texels from the edge, to the right, and
+/// texels at depth ¼ and leaves the others at 1, for receivers at the depth `receiver`. `positions` are in texels from the edge, to the right, and
 /// at most 16 each way. Answers are 0 in shadow, 1 lit.
 ///
 /// # Errors
 /// As [`visibility`]; a technique that keeps triangles, which has no texels to filter.
-pub fn edge(gpu: &Gpu, technique: &dyn Technique, positions: &[f32]) -> Result<Vec<f32>> {
+pub fn edge(gpu: &Gpu, technique: &dyn Technique, receiver: f32, positions: &[f32]) -> Result<Vec<f32>> {
     let texel = 2.0 / SIZE.width as f32;
     let device = Capabilities::of(&gpu.device);
     if technique.describe(&device)?.storage != CasterStorage::Depth {
@@ -41,7 +41,7 @@ pub fn edge(gpu: &Gpu, technique: &dyn Technique, positions: &[f32]) -> Result<V
     if let Some(far) = positions.iter().find(|p| !(-16.0..=16.0).contains(*p)) {
         bail!("a position {far} texels from the edge: allowed are −16 to 16");
     }
-    let questions: Vec<[f32; 2]> = positions.iter().map(|p| [p * texel, 0.75]).collect();
+    let questions: Vec<[f32; 2]> = positions.iter().map(|p| [p * texel, receiver]).collect();
     answers(gpu, technique, 0.25, SIZE.width / 2, &questions)
 }
 

@@ -126,6 +126,6 @@ impl Prepared {
     /// A frame to be timed.
     #[must_use]
     pub fn frame(&self) -> TimedFrame<'_> {
-        TimedFrame { shadows: Some((&self.shadows, &self.casters)), lookup: &self.lookup }
+        TimedFrame { shadows: Some((&self.shadows, &self.casters)), lookup: &self.lookup, kept: false }
     }
 }

@@ -9,7 +9,7 @@ use crate::{
     readback,
     results::{LeftOut, Refused, StartUp, TimeResult},
     shot::{Entry, Shot},
-    timing::{self, TimedFrame},
+    timing::{self, TimedFrame, Upkeep},
 };
 use antumbra::{Options, Pipelines, ShadowMap, Size, Technique, View, technique};
 use antumbra_render::{GpuScene, Lighting, Lookup, Pictures};
@@ -319,30 +319,31 @@ impl<'g> Session<'g> {
         progress: &dyn Progress,
     ) -> Result<Vec<TimeResult>> {
         let unshadowed = Lookup::unshadowed(self.gpu, &self.scene);
-        let frames = timed(frames, &unshadowed);
+        let unshadowed = TimedFrame { shadows: None, lookup: &unshadowed, kept: false };
+        let frames: Vec<TimedFrame<'_>> =
+            frames.iter().map(|frame| frame.map_or(unshadowed, Prepared::frame)).collect();
         let share = |share| progress.share(share);
         timing::time_interleaved(self.gpu, &self.scene, &self.lighting, &frames, rounds, &share)
     }
 
-    /// The same, with every time that was taken.
+    /// The same, with every time that was taken, of frames whose maps may be kept.
     ///
     /// # Errors
     /// If the device is lost.
-    pub fn sample_frames(
-        &self,
-        frames: &[Option<&Prepared>],
+    pub fn sample_frames<'s>(
+        &'s self,
+        frames: &[Option<(&'s Prepared, Upkeep)>],
         rounds: u32,
         progress: &dyn Progress,
     ) -> Result<Vec<timing::Samples>> {
         let unshadowed = Lookup::unshadowed(self.gpu, &self.scene);
-        let frames = timed(frames, &unshadowed);
+        let none = TimedFrame { shadows: None, lookup: &unshadowed, kept: false };
+        let frame = |frame: &Option<(&'s Prepared, Upkeep)>| {
+            let Some((prepared, upkeep)) = *frame else { return none };
+            TimedFrame { kept: upkeep == Upkeep::Kept, ..prepared.frame() }
+        };
+        let frames: Vec<TimedFrame<'_>> = frames.iter().map(frame).collect();
         let share = |share| progress.share(share);
         timing::sample_interleaved(self.gpu, &self.scene, &self.lighting, &frames, rounds, &share)
     }
-}
-
-/// What is timed of techniques, and of shading without any.
-fn timed<'a>(frames: &[Option<&'a Prepared>], unshadowed: &'a Lookup) -> Vec<TimedFrame<'a>> {
-    let unshadowed = TimedFrame { shadows: None, lookup: unshadowed };
-    frames.iter().map(|frame| frame.map_or(unshadowed, Prepared::frame)).collect()
 }

@@ -106,6 +106,15 @@ impl Probe for Stopwatch {
     }
 }
 
+/// What becomes of a map from frame to frame.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Upkeep {
+    /// It is drawn and filtered anew in each.
+    Drawn,
+    /// It stays as the first frame drew it.
+    Kept,
+}
+
 /// What a frame that is timed draws: `None` shades without any shadow.
 #[derive(Debug, Clone, Copy)]
 pub struct TimedFrame<'a> {
@@ -113,6 +122,8 @@ pub struct TimedFrame<'a> {
     pub shadows: Option<(&'a ShadowMap, &'a Casters)>,
     /// Its lookup pass.
     pub lookup: &'a Lookup,
+    /// Whether the map stays as an earlier frame drew it, as with lights and casters that do not move.
+    pub kept: bool,
 }
 
 /// All times of one frame, milliseconds, a round each.
@@ -157,7 +168,9 @@ pub fn sample_interleaved(
     let mut samples: Vec<Samples> = frames.iter().map(|_| Samples::default()).collect();
     for round in 0..=rounds {
         for (timed, samples) in frames.iter().zip(&mut samples) {
-            let (frame, passes) = frame(gpu, scene, lighting, *timed, &mut stopwatch)?;
+            // What is kept is drawn once.
+            let timed = TimedFrame { kept: timed.kept && round > 0, ..*timed };
+            let (frame, passes) = frame(gpu, scene, lighting, timed, &mut stopwatch)?;
             if round > 0 {
                 samples.frame.push(frame);
                 for (name, ms) in passes {
@@ -193,7 +206,7 @@ fn frame(
 ) -> Result<(f64, Passes)> {
     stopwatch.labels.clear();
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    if let Some((shadows, casters)) = timed.shadows {
+    if let Some((shadows, casters)) = timed.shadows.filter(|_| !timed.kept) {
         shadows.encode_probed(&mut encoder, stopwatch, |pass| scene.draw_casters(casters, pass))?;
     }
     scene.encode_surfaces(&mut encoder, stopwatch.pass("surfaces", 0));

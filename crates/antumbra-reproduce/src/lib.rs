@@ -18,6 +18,7 @@ pub mod cache;
 pub mod catalogue;
 mod csm;
 mod esm;
+pub mod fidelity;
 mod gallery;
 pub mod html;
 pub mod numbers;

@@ -12,7 +12,9 @@ use antumbra_lab::truth::Truth;
 use anyhow::Result;
 use std::collections::BTreeSet;
 
+mod blend;
 mod lookups;
+mod variance;
 
 pub(crate) const SOURCE: Source = Source {
     key: "slides",
@@ -27,6 +29,42 @@ pub(crate) const SOURCE: Source = Source {
                of the same width in light space would give.",
             seconds: [9, 2],
             run: pcf_row,
+        },
+        Target {
+            id: "slides/depth",
+            title: "Depth values are not blendable",
+            paper: "Filtering 3.2 and 1.5 gives 2.8, which shadows a receiver at 3 that most of the texels light. Filtering \
+                    depth is not equivalent to filtering the result of the shadow test (Annen et al. 2007, Eq. 5).",
+            ours: "A box of 5×5 texels over depths that are then compared, and over comparisons; the edge of a caster, and the \
+                   scene spheres with a 512² map.",
+            seconds: [6, 2],
+            run: blend::depth,
+        },
+        Target {
+            id: "slides/vsm-row",
+            title: "Variance estimates what PCF would answer",
+            paper: "One scene with a standard map, PCF of 5×5, bilinear PCF of 5×5 and a VSM. Chebyshev's inequality becomes \
+                    an equality for a single planar occluder and receiver.",
+            ours: "The scene spheres with a 512² map and Gaussians of 5×5; receivers on a plane behind the edge of a plane.",
+            seconds: [8, 2],
+            run: variance::row,
+        },
+        Target {
+            id: "slides/quality",
+            title: "Speed and memory of ESM, CSM and VSM",
+            paper: "365,000 faces, a 2048² map: 66 frames per second and 21 MB (ESM), 21 and 170 MB (CSM), 60 and 42 MB (VSM).",
+            ours: "The scene fence with 365,000 triangles, 800×600 pixels, 2048², 5×5 Gauss, trilinear lookups.",
+            seconds: [60, 8],
+            run: variance::quality,
+        },
+        Target {
+            id: "slides/sat-precision",
+            title: "Summed-area tables of floats and of whole numbers",
+            paper: "A table sums arbitrary rectangles from its four corners: differences of sums as large as the map.",
+            ours: "Depth and its square on a tilted plane, 256² to 2048² texels, summed in 32-bit floats and in the whole numbers \
+                   that the library uses; means of 3×3 texels against double precision.",
+            seconds: [5, 2],
+            run: blend::sums,
         },
         Target {
             id: "slides/bicubic",

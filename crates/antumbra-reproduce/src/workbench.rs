@@ -13,9 +13,11 @@ use antumbra_lab::{
     results::AdapterFacts,
 };
 use anyhow::{Context, Result};
+pub use own::FILTERED_DEPTH;
 use scenes::Scenes;
 use std::path::Path;
 
+mod own;
 mod scenes;
 mod studies;
 mod timings;
@@ -53,7 +55,7 @@ pub fn first_known<'s>(specs: &[&'s str]) -> Option<&'s str> {
 }
 
 fn parse(specs: &[&str]) -> Result<Vec<Box<dyn Technique>>> {
-    specs.iter().map(|spec| Ok(technique::parse(spec)?)).collect()
+    specs.iter().map(|spec| own::parse(spec)).collect()
 }
 
 impl<'a> Workbench<'a> {
@@ -107,14 +109,14 @@ impl<'a> Workbench<'a> {
         })
     }
 
-    /// What [`curve::edge`] answers across the edge of a caster.
+    /// What [`curve::edge`] answers across the edge of a caster to receivers at the depth `receiver`.
     ///
     /// # Errors
     /// As [`study`](Self::study).
-    pub fn edge(&self, spec: &str, positions: &[f32]) -> Result<Vec<f32>> {
-        self.cache.memo(&("edge", spec, positions), || {
+    pub fn edge(&self, spec: &str, receiver: f32, positions: &[f32]) -> Result<Vec<f32>> {
+        self.cache.memo(&("edge", spec, receiver, positions), || {
             self.progress.step(&format!("edge with {spec}"));
-            curve::edge(&self.gpu, technique::parse(spec)?.as_ref(), positions)
+            curve::edge(&self.gpu, own::parse(spec)?.as_ref(), receiver, positions)
         })
     }
 }

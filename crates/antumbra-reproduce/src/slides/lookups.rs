@@ -29,7 +29,7 @@ pub(super) fn bicubic(bench: &Workbench<'_>) -> Result<Page> {
     let mut curves = Vec::new();
     let mut largest = None;
     for (spec, name) in SHOWN {
-        let answers = bench.edge(spec, &positions)?;
+        let answers = bench.edge(spec, 0.75, &positions)?;
         let points: Vec<[f64; 2]> =
             positions.iter().zip(&answers).map(|(x, v)| [f64::from(*x), f64::from(*v)]).collect();
         if spec == "bicubic" {

@@ -2,7 +2,7 @@
 
 use super::{Workbench, parse};
 use crate::study::{ShotKey, Timed};
-use antumbra_lab::{prepared::Prepared, results::Refused, session::Session};
+use antumbra_lab::{prepared::Prepared, results::Refused, session::Session, timing::Upkeep};
 use anyhow::{Result, bail};
 use std::collections::BTreeMap;
 
@@ -16,6 +16,15 @@ impl Workbench<'_> {
     /// # Errors
     /// As [`study`](Self::study).
     pub fn times(&self, key: ShotKey, frames: &[(u32, &str)], rounds: u32) -> Result<Vec<Timed>> {
+        let drawn: Vec<(u32, &str, bool)> = frames.iter().map(|(map, spec)| (*map, *spec, false)).collect();
+        self.times_kept(key, &drawn, rounds)
+    }
+
+    /// The same where maps may be kept from frame to frame, as with lights and casters that do not move.
+    ///
+    /// # Errors
+    /// As [`study`](Self::study).
+    pub fn times_kept(&self, key: ShotKey, frames: &[(u32, &str, bool)], rounds: u32) -> Result<Vec<Timed>> {
         if rounds == 0 {
             bail!("times of no rounds");
         }
@@ -23,8 +32,11 @@ impl Workbench<'_> {
             self.progress.step(&format!("prepare {} frames on {}", frames.len(), key.scene));
             let mut session = Session::without_techniques(&self.gpu, &self.shot_of(&key, 1)?)?;
             let order = prepare(&mut session, frames)?;
-            let prepared: Vec<Option<&Prepared>> =
-                order.iter().map(|place| place.map(|i| &session.prepared()[i])).collect();
+            let frame = |(place, frame): (&Option<usize>, &(u32, &str, bool))| {
+                let upkeep = if frame.2 { Upkeep::Kept } else { Upkeep::Drawn };
+                place.map(|i| (&session.prepared()[i], upkeep))
+            };
+            let prepared: Vec<Option<(&Prepared, Upkeep)>> = order.iter().zip(frames).map(frame).collect();
             self.progress.step(&format!("time {} frames on {}", frames.len(), key.scene));
             let samples = session.sample_frames(&prepared, rounds, self.progress)?;
             Ok(samples.into_iter().map(Timed::from).collect())
@@ -34,9 +46,9 @@ impl Workbench<'_> {
 
 /// Prepares the techniques of all frames, those with maps of one size together, which share the light's
 /// views. Returns for each frame which of the session's techniques it shows; `None` shades without shadows.
-fn prepare(session: &mut Session<'_>, frames: &[(u32, &str)]) -> Result<Vec<Option<usize>>> {
+fn prepare(session: &mut Session<'_>, frames: &[(u32, &str, bool)]) -> Result<Vec<Option<usize>>> {
     let mut by_size: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
-    for (i, (map, _)) in frames.iter().enumerate().filter(|(_, (_, spec))| *spec != NONE) {
+    for (i, (map, ..)) in frames.iter().enumerate().filter(|(_, (_, spec, _))| *spec != NONE) {
         by_size.entry(*map).or_default().push(i);
     }
     let mut order = vec![None; frames.len()];

@@ -13,12 +13,12 @@
 //! share one.
 //!
 //! # Levels
-//! 16 texels give 17 levels, but the paper counts 4 · 5 = 20. Its phases have 8 bits: 64 for every
-//! shadowed texel, 255 and not 256 where all four are. So s shadowed texels with f full phases among
-//! them add up to 64 s − f, a quarter of which comes back from the accumulation buffer as 16 s where
-//! f < 3, and as 16 s − 1 from there on, which 12 texels or more can reach. 0 to 14 texels give 16 s
-//! (three full phases are certain for 15), 12 to 16 give 16 s − 1: 15 + 5 = 20 levels
-//! ([`Accumulation::Bytes`]).
+//! 16 comparisons have 17 sums. The paper's phases have 8 bits: 64 for a shadowed texel, and 63 in one of
+//! the channels, so that all four make 255 (its footnote 2); here that channel is alpha. s shadowed texels,
+//! a of them in alpha, add up to 64 s − a, a quarter of which comes back from the accumulation buffer as
+//! 16 s where a < 3, and as 16 s − 1 from there on. 0 to 14 texels can have fewer than three in alpha, 3 to
+//! 16 can have three: 15 + 14 = 29 levels ([`Accumulation::Bytes`]). The paper counts 4 · 5 = 20, which is
+//! neither.
 //!
 //! Brabec & Seidel 2001, "Hardware-accelerated rendering of antialiased shadows with shadow maps", §4.
 
@@ -45,7 +45,7 @@ choice! {
     Accumulation {
         /// In floats.
         Exact = "exact",
-        /// In bytes that are rounded once, from a frame buffer of 8 bits: 20 levels from 4×4.
+        /// In bytes that are rounded once, from a frame buffer of 8 bits: 29 levels from 4×4.
         Bytes = "bytes",
     }
 }

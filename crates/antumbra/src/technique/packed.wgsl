@@ -11,7 +11,8 @@ fn packed_encode(depths: mat3x3f, layer: u32) -> vec4f {
     return vec4f(depths[0][2], depths[1][2], depths[0][1], depths[1][1]);
 }
 
-/// Share of four depths that the receiver is behind. `gain` is the depth that its plane gains to the
+/// What the four depths that the receiver is behind add up to: their share, or in 8 bits 64 each and 63 in
+/// alpha, so that all of them make 255 [footnote 2]. `gain` is the depth that its plane gains to the
 /// middle of the four, `half_texel` what it gains over half a texel in x and in y.
 fn packed_shadow(four: vec4f, depth: f32, gain: f32, half_texel: vec2f) -> f32 {
     // Lower left, lower right, upper left, upper right.
@@ -20,12 +21,8 @@ fn packed_shadow(four: vec4f, depth: f32, gain: f32, half_texel: vec2f) -> f32 {
         reference_depth(depth, gains.x), reference_depth(depth, gains.y),
         reference_depth(depth, gains.z), reference_depth(depth, gains.w),
     );
-    return dot(select(vec4f(0.25), vec4f(0.0), references <= four), vec4f(1.0));
-}
-
-/// What a phase leaves in a frame buffer of 8 bits: 64 for every shadowed texel, 255 where all four are.
-fn packed_byte(shadow: f32) -> f32 {
-    return min(256.0 * shadow, 255.0);
+    let weights = select(vec4f(0.25), vec4f(64.0, 64.0, 64.0, 63.0), packed_in_bytes == 1u);
+    return dot(select(weights, vec4f(0.0), references <= four), vec4f(1.0));
 }
 
 /// What an accumulation buffer gives back to a frame buffer of 8 bits, as a share of 255.
@@ -45,8 +42,7 @@ fn packed_visibility(packed: texture_2d_array<f32>, uv: vec2f, view: u32, depth:
             let phase = middle + 2.0 * vec2f(f32(column), f32(row)) - f32(packed_phases - 1u);
             let four = textureLoad(packed, tile_texel(view, vec2i(phase)), tile_layer(view), 0);
             let gain = dot(plane, (phase + vec2f(0.0, 1.0)) * texel - uv);
-            let shadow = packed_shadow(four, depth, gain, 0.5 * plane * texel);
-            sum += select(shadow, packed_byte(shadow), packed_in_bytes == 1u);
+            sum += packed_shadow(four, depth, gain, 0.5 * plane * texel);
         }
     }
     let mean = sum / f32(packed_phases * packed_phases);

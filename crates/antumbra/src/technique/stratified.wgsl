@@ -2,14 +2,27 @@
 
 /// Samples along one side of a texel.
 const stratified_grid: u32 = 2;
+/// 1 where each pass samples at a place of its own within its cell, 0 where all sample in the middle.
+const stratified_random: u32 = 0;
 
 /// The depth of one caster pass, which goes to one channel.
 fn stratified_encode(depth: f32, layer: u32) -> vec4f {
     return vec4f(depth);
 }
 
+/// How far sample k lies from the middle of its cell, in cells.
+fn stratified_jitter(k: u32) -> vec2f {
+    if (stratified_random == 0u) {
+        return vec2f(0.0);
+    }
+    let state = k * 747796405u + 2891336453u;
+    let word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
+    let hash = (word >> 22u) ^ word;
+    return vec2f(f32(hash & 0xffffu), f32(hash >> 16u)) / 65536.0 - 0.5;
+}
+
 /// Share of the n×n depths in the texel of uv that the receiver is not behind, each compared where it
-/// was sampled: sample k lies in column k mod n and row k / n of the texel. One fetch per four samples.
+/// was sampled: sample k lies in the cell of column k mod n and row k / n of the texel. One fetch per four samples.
 fn stratified_visibility(samples: texture_2d_array<f32>, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f) -> f32 {
     const COUNT = stratified_grid * stratified_grid;
     const LAYERS = (COUNT + 3u) / 4u;
@@ -24,7 +37,7 @@ fn stratified_visibility(samples: texture_2d_array<f32>, uv: vec2f, view: u32, d
         let four = textureLoad(samples, tile_texel(view, vec2i(texel)), tile_layer(view) * LAYERS + layer, 0);
         for (var channel = 0u; channel < 4u; channel += 1u) {
             let k = 4u * layer + channel;
-            let here = gain + f32(k % stratified_grid) * step.x + f32(k / stratified_grid) * step.y;
+            let here = gain + f32(k % stratified_grid) * step.x + f32(k / stratified_grid) * step.y + dot(step, stratified_jitter(k));
             lit += select(0.0, 1.0, k < COUNT && reference_depth(depth, here) <= four[channel]);
         }
     }

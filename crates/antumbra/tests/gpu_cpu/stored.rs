@@ -5,7 +5,10 @@ use super::{
     comparison::{Comparisons, Sum, ask, holds, strays, tilted_receivers},
     noise, row, rows, run, shadows,
 };
-use antumbra::{Capabilities, Precision, Technique, technique};
+use antumbra::{
+    Capabilities, Precision, Technique,
+    technique::{self, stratified::Jitter},
+};
 use antumbra_testing::{
     Gpu,
     ask::{depth_layers, shadow_map},
@@ -59,8 +62,10 @@ pub(crate) fn packed_is_the_mean_around_a_corner(gpu: &Gpu) {
 /// Each sample is compared where it was taken.
 pub(crate) fn stratified_is_the_mean_of_its_samples(gpu: &Gpu) {
     let rows = tilted_receivers(24);
-    for grid in [2_u32, 3, 4] {
-        let stratified = technique::Stratified { grid, ..technique::Stratified::default() };
+    for (grid, jitter) in
+        [(2_u32, Jitter::Centred), (3, Jitter::Centred), (4, Jitter::Centred), (3, Jitter::Random)]
+    {
+        let stratified = technique::Stratified { grid, jitter, ..technique::Stratified::default() };
         let samples = grid * grid;
         let maps: Vec<_> = (0..samples).map(|k| noise(30 + u64::from(k))).collect();
         let depth = depth_layers(gpu, SIZE, samples, |k, x, y| maps[k as usize](x, y));
