@@ -2,6 +2,7 @@
 
 use crate::target::{Source, Target};
 
+mod bases;
 mod curves;
 mod filters;
 mod layers;
@@ -53,6 +54,16 @@ pub(crate) const SOURCE: Source = Source {
                    memory of maps of 1024².",
             seconds: [8, 3],
             run: series::series,
+        },
+        Target {
+            id: "csm/bases",
+            title: "Other bases for the shadow test",
+            paper: "Section 3.2.3: a Taylor series diverges where d − z is large; block and hat functions err by a variable \
+                    amount, since they are not shift-invariant, and pop.",
+            ours: "32 coefficients of each, as 16 Fourier terms have, in double precision; the Taylor series is of a sigmoid as \
+                   steep as they are.",
+            seconds: [1, 1],
+            run: bases::bases,
         },
         Target {
             id: "csm/figure-4",
