@@ -175,9 +175,8 @@ fn close_to_pcf(pcf: f64, fast: f64, none: f64) -> Verdict {
         "Fast PCF 2×2 is close to PCF 2×2 in quality",
         Ran::new(SCENE, [FIGURE_7[0].0, FIGURE_7[1].0, FIGURE_7[2].0]),
         [
-            at_most("RMSE of fast PCF", fast, "that of PCF and a quarter", 1.25 * pcf).ours(
-                "comparable is less than twice as far off as going without any filter would leave room for",
-            ),
+            at_most("RMSE of fast PCF", fast, "that of PCF and a quarter", 1.25 * pcf)
+                .ours("comparable errs by no more than a quarter more"),
             less("RMSE of fast PCF", fast, "that without filtering", none)
                 .ours("what does not improve on no filter is comparable to none"),
         ],

@@ -40,10 +40,9 @@ impl Technique for FilteredDepth {
         let wgsl = include_str!("own/filtered_depth.wgsl");
         // As much bias as comparisons of the same texels have: lit surfaces are not what is tried.
         let compared = Pcf { kernel: 5, ..Pcf::default() }.describe(device)?;
-        Ok(Description {
-            bias: compared.bias,
-            ..Description::filtered(self.about(), wgsl, &filter, values, device)
-        })
+        let mut described = Description::filtered(self.about(), wgsl, &filter, values, device);
+        described.bias = compared.bias;
+        Ok(described)
     }
     fn clone_box(&self) -> Box<dyn Technique> {
         Box::new(*self)
