@@ -7,9 +7,11 @@
 # make proof   a technique and a store of somebody else's keep the laws; part of `make test`
 # make setup   what the first three do first: a Vulkan driver if the machine has none
 # make msrv    the library with the lowest compiler that it promises, without features and with all
+# make features   the library with each of its features by itself; installs cargo-hack where a registry can be reached
+# make semver   what changed of the library's interface since the tag or commit SINCE; needs cargo-semver-checks
 # make portability   every shader through a browser's compiler, pictures and laws on a second driver; needs Node
 
-.PHONY: demo test proof bench bench-cpu docs results setup fmt clippy doc check-wasm portability msrv deny golden
+.PHONY: demo test proof bench bench-cpu docs results setup fmt clippy doc check-wasm features semver portability msrv deny golden
 
 CARGO ?= cargo
 export RUSTDOCFLAGS = -D warnings
@@ -105,6 +107,21 @@ msrv:
 	else \
 		echo "Rust $(MSRV) is not installed: the lowest compiler not tried (rustup toolchain install $(MSRV) --profile minimal)"; \
 	fi
+
+# Without features, with each by itself, and with all.
+features:
+	@if $(CARGO) hack --version >/dev/null 2>&1 || $(CARGO) install cargo-hack --locked; then \
+		$(CARGO) hack check --release -p antumbra --lib --each-feature --optional-deps serde; \
+	else \
+		echo "cargo-hack is not to be had: features not tried by themselves"; \
+	fi
+
+# Until a version is published there is nothing to compare with but a commit: make semver SINCE=main
+SINCE ?= $(shell git describe --tags --abbrev=0 2>/dev/null)
+semver:
+	@test -n "$(SINCE)" || { echo "semver: say since which tag or commit: make semver SINCE=…"; exit 1; }
+	@$(CARGO) semver-checks --version >/dev/null 2>&1 || { echo "semver: cargo-semver-checks is needed (cargo install cargo-semver-checks --locked)"; exit 1; }
+	$(CARGO) semver-checks --package antumbra --baseline-rev $(SINCE)
 
 # Licences and advisories of all dependencies; needs cargo-deny.
 deny:

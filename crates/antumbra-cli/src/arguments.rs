@@ -179,8 +179,8 @@ pub(crate) struct Flicker {
     /// Frames of the path, 2 or more
     #[arg(long, default_value_t = 120)]
     pub(crate) frames: u32,
-    /// Pixels from one that is asked for the light-space and screen-space ideals, which take many rays,
-    /// to the next
+    /// Distance in pixels between those for which the light-space and screen-space ideals are computed,
+    /// which take many rays
     #[arg(long, default_value_t = 8, value_name = "PIXELS")]
     pub(crate) stride: u32,
     /// Rays per pixel of the screen-space ideal, along one side

@@ -14,7 +14,7 @@
 //! # Which truth?
 //! Each technique is judged by what it promises ([`Promise`]), and hard shadow mapping, to which all are
 //! related, by its own. Against the hard truth a perfect penumbra would flicker about as badly as a
-//! jagged edge: wherever an edge passes, the truth changes at once and a filter over several frames.
+//! jagged edge: where an edge passes a pixel, the truth changes from one frame to the next, a filter over several.
 //! That is measured too ([`Results::ideal_against_hard`]).
 //!
 //! # Which pixels?
@@ -62,7 +62,7 @@ pub struct Request {
     pub until: u32,
     /// The techniques, in order.
     pub techniques: Vec<Box<dyn Technique>>,
-    /// Pixels from one that is asked for the ideals to the next, across and down.
+    /// Distance in pixels, across and down, between pixels for which the ideals are computed.
     pub stride: u32,
     /// Rays per pixel of the screen-space ideal, along one side.
     pub grid: u32,

@@ -79,6 +79,17 @@ fn rest() -> (Vec<Vec4>, Vec<u32>) {
     (ground.into_iter().chain((0..=RINGS).flat_map(ring)).collect(), indices)
 }
 
+/// A pipeline for vertices that are positions alone, with a colour if there is a fragment stage.
+fn pipeline(
+    device: &wgpu::Device,
+    module: &wgpu::ShaderModule,
+    groups: &[Option<&wgpu::BindGroupLayout>],
+    fragment: Option<&str>,
+) -> wgpu::RenderPipeline {
+    let attributes = wgpu::vertex_attr_array![0 => Float32x3];
+    common::pipeline_of(device, module, groups, common::Stages::of("vertex", fragment), &[&attributes])
+}
+
 /// The picture, rows of RGBA.
 pub fn run(
     device: &wgpu::Device,
@@ -105,8 +116,8 @@ pub fn run(
     let matrices = common::uniform_layout(device);
     let own = [Some(&matrices)];
     let both = [Some(&matrices), Some(shadows.layout())];
-    let cast = common::pipeline_of_positions(device, &module, &own, "vertex", None);
-    let receive = common::pipeline_of_positions(device, &module, &both, "vertex", Some("fragment"));
+    let cast = pipeline(device, &module, &own, None);
+    let receive = pipeline(device, &module, &both, Some("fragment"));
     let draw = |pass: &mut wgpu::RenderPass<'_>| {
         pass.set_vertex_buffer(0, positions.slice(..));
         pass.set_index_buffer(indices.slice(..), wgpu::IndexFormat::Uint32);

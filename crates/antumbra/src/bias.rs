@@ -148,8 +148,9 @@ impl BiasTerms {
         depth_steps: 0.5,
     };
 
-    /// For 2×2 texels that are compared together, with the plane at the highest of them: which is half a
-    /// texel's slope or more too near to the light for the others, so that little is left to add.
+    /// Bias for 2×2 texels that are compared at once, with the receiver's plane at the texel where it is nearest to
+    /// the light. For the other three texels that plane is too near by half a texel's slope or more, which is most of
+    /// the bias that they need.
     pub(crate) const FOURS: Self = Self { slope_texels: 0.05, grazing_offset_texels: 0.18, ..Self::TEXELS };
 
     /// For receivers whose ray meets triangles themselves, unrounded but for floats.

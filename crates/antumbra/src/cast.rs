@@ -156,15 +156,3 @@ impl Seen<'_> {
 fn refused(technique: &str, what: String, instead: String) -> Result<(), Unsupported> {
     Err(Unsupported::Feature { technique: technique.into(), what, instead })
 }
-
-/// Whether a technique asks for casters once per view.
-fn check_casts(technique: &str, casts: usize) -> Result<(), Unsupported> {
-    match casts {
-        1 => Ok(()),
-        _ => refused(
-            technique,
-            "a single caster pass".into(),
-            "describe no more in Description::sample_offsets".into(),
-        ),
-    }
-}

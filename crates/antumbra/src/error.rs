@@ -109,6 +109,22 @@ pub enum DescriptionError {
         /// Layers of the first map.
         layers: u32,
     },
+    /// Several caster passes where triangles are kept.
+    #[error(
+        "it keeps triangles and has {passes} sample offsets; casters are drawn once, from the centres of texels: leave one, of zero"
+    )]
+    Passes {
+        /// Caster passes.
+        passes: usize,
+    },
+    /// No map for the nearest triangles.
+    #[error(
+        "it keeps the nearest triangle in {layers} ways; describe one map, of {layers} layers, in Description::maps"
+    )]
+    Nearest {
+        /// Layers that the map must have.
+        layers: usize,
+    },
     /// A binding of a map that is not kept.
     #[error("it binds map {index}, counted from 0, and has {maps}; add the map to Description::maps")]
     Map {

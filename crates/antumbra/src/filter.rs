@@ -9,7 +9,7 @@ use crate::{
     },
     kernel::{Adaptive, Kernel, Weights, Width},
     parameter::{Field, Parameter, choice},
-    table::{MOST_SUMMED, Table},
+    table::{MAX_SUMMED, Table},
 };
 use std::borrow::Cow;
 
@@ -121,8 +121,7 @@ impl Filter {
 
     /// The rows of these settings in a technique's parameter table.
     pub fn parameters(&mut self) -> Vec<Parameter<'_>> {
-        let (widest, longest) =
-            if self.sampling == Sampling::Summed { (MOST_SUMMED, 0.0) } else { (31, 1e6) };
+        let (widest, longest) = if self.sampling == Sampling::Summed { (MAX_SUMMED, 0.0) } else { (31, 1e6) };
         vec![
             Parameter::new(
                 "kernel",

@@ -8,7 +8,7 @@
 //! maps".
 
 /// Longest side of a box in texels. Kernels may be as wide, footprints are cut off there.
-pub(crate) const MOST_SUMMED: u32 = 255;
+pub(crate) const MAX_SUMMED: u32 = 255;
 
 /// Bits that the sum over a box needs beside those of one value.
 const SUM_BITS: u32 = 16;
@@ -77,9 +77,9 @@ mod tests {
             assert_eq!(table.words, words, "{bits} bits");
             // The sum of a full box, fractions of its border texels included, in shares of what the
             // words can hold.
-            let most = f64::from(MOST_SUMMED + 1).powi(2) * f64::from(table.steps);
+            let most = f64::from(MAX_SUMMED + 1).powi(2) * f64::from(table.steps);
             assert!(most <= 2f64.powi(32 * words as i32));
         }
-        assert!(f64::from(MOST_SUMMED).powi(2) * 255.0 < 2f64.powi(32));
+        assert!(f64::from(MAX_SUMMED).powi(2) * 255.0 < 2f64.powi(32));
     }
 }

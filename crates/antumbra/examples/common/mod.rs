@@ -8,7 +8,7 @@ use wgpu::{TextureUsages, util::DeviceExt};
 
 mod pipelines;
 
-pub use pipelines::{compute_pipeline, pipeline, pipeline_of_positions, pipeline_of_uvs};
+pub use pipelines::{Stages, compute_pipeline, pipeline, pipeline_of, pipeline_of_uvs};
 
 pub const WIDTH: u32 = 640;
 pub const HEIGHT: u32 = 480;

@@ -13,21 +13,7 @@ pub fn pipeline(
     fragment: Option<&str>,
 ) -> RenderPipeline {
     let attributes = wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3];
-    let stages = Stages { vertex, fragment, colours: fragment.is_some() };
-    pipeline_of(device, module, groups, stages, &[&attributes])
-}
-
-/// The same for vertices that are positions alone.
-pub fn pipeline_of_positions(
-    device: &Device,
-    module: &wgpu::ShaderModule,
-    groups: &[Option<&BindGroupLayout>],
-    vertex: &str,
-    fragment: Option<&str>,
-) -> RenderPipeline {
-    let attributes = wgpu::vertex_attr_array![0 => Float32x3];
-    let stages = Stages { vertex, fragment, colours: fragment.is_some() };
-    pipeline_of(device, module, groups, stages, &[&attributes])
+    pipeline_of(device, module, groups, Stages::of(vertex, fragment), &[&attributes])
 }
 
 /// The same for positions in one buffer and texture coordinates in another, with a fragment stage that leaves
@@ -46,13 +32,21 @@ pub fn pipeline_of_uvs(
 }
 
 /// Entry points, and whether there is a colour to write.
-struct Stages<'a> {
+pub struct Stages<'a> {
     vertex: &'a str,
     fragment: Option<&'a str>,
     colours: bool,
 }
 
-fn pipeline_of(
+impl<'a> Stages<'a> {
+    /// A fragment stage writes a colour; without one there is depth alone.
+    pub fn of(vertex: &'a str, fragment: Option<&'a str>) -> Self {
+        Self { vertex, fragment, colours: fragment.is_some() }
+    }
+}
+
+/// The same for any stages, and vertices of such attributes, one list for each buffer.
+pub fn pipeline_of(
     device: &Device,
     module: &wgpu::ShaderModule,
     groups: &[Option<&BindGroupLayout>],

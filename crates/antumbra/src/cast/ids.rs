@@ -3,7 +3,7 @@
 use super::{
     Cast, Owner, Plan, Site, Step, Store,
     arrays::{Array, Element, Image, Storage, called},
-    check_casts, refused,
+    refused,
     split::Split,
     triangle::{self, Holes, PULLED, TrianglePass, VIEW},
 };
@@ -155,7 +155,6 @@ impl<'a, P: Deref<Target = dyn Store>> IdPlan<'a, P> {
 
 impl<P: Deref<Target = dyn Store>> Plan for IdPlan<'_, P> {
     fn check(&self) -> Result<(), Unsupported> {
-        check_casts(self.site.technique, self.site.casts)?;
         capacity::check(self.site.capacity)?;
         let wrong = |error| Unsupported::Description { technique: self.site.technique.into(), error };
         check_files(self.store.needs()).map_err(wrong)?;

@@ -1,11 +1,10 @@
 //! Casters of which each texel keeps the nearest triangle, drawn straight into the technique's only map.
 
 use super::{
-    Cast, CasterPass, Plan, Seen, check_casts,
+    Cast, CasterPass, Plan, Seen,
     objects::{self, UNIFORM},
     pass::{self, MeshPipeline},
     pipeline::Recipe,
-    refused,
     triangle::{self, Holes, PULLED, TrianglePass, Varyings},
     views::{CasterViews, perspective},
 };
@@ -70,15 +69,7 @@ impl NearestPlan<'_> {
 
 impl Plan for NearestPlan<'_> {
     fn check(&self) -> Result<(), Unsupported> {
-        let description = &self.composition.description;
-        check_casts(description.about.name, description.sample_offsets.len())?;
-        match description.maps.as_slice() {
-            [map] if map.layers as usize == self.coverages.len() => Ok(()),
-            _ => {
-                let what = "one map with a layer for each of its casters' passes".into();
-                refused(description.about.name, what, "describe just that in Description::maps".into())
-            }
-        }
+        Ok(())
     }
 
     fn shaders(&self) -> Vec<Shader> {

@@ -26,8 +26,6 @@ pub struct Site<'a> {
     pub asks: bool,
     /// What the device can do.
     pub device: &'a Capabilities,
-    /// Passes that the technique asks for in each view.
-    pub(super) casts: usize,
 }
 
 impl<'a> Site<'a> {
@@ -40,7 +38,6 @@ impl<'a> Site<'a> {
             capacity: options.capacity,
             asks: composition.asks,
             device,
-            casts: composition.description.sample_offsets.len(),
         }
     }
 

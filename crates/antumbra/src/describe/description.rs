@@ -160,11 +160,26 @@ impl Description {
                 Binding::Map(_) | Binding::Depth | Binding::Compare(_) | Binding::Sampler => {}
             }
         }
+        self.check_storage()?;
         // Four passes share a layer.
         let (passes, layers) = (self.sample_offsets.len(), self.maps.first().map_or(0, |map| map.layers));
         if passes > 1 && passes.div_ceil(4) > layers as usize {
             return Err(DescriptionError::Layers { passes, layers });
         }
         Ok(())
+    }
+
+    /// Whether what is kept of casters is drawn and stored as it can be.
+    fn check_storage(&self) -> Result<(), DescriptionError> {
+        let passes = self.sample_offsets.len();
+        if self.storage != CasterStorage::Depth && passes > 1 {
+            return Err(DescriptionError::Passes { passes });
+        }
+        match (self.storage, self.maps.as_slice()) {
+            (CasterStorage::NearestTriangle(coverages), maps) if !matches!(maps, [map] if map.layers as usize == coverages.len()) => {
+                Err(DescriptionError::Nearest { layers: coverages.len() })
+            }
+            _ => Ok(()),
+        }
     }
 }

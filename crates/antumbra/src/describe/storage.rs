@@ -25,10 +25,10 @@ pub enum CasterStorage {
     /// same in the same order both times. What exceeds the map's [`Capacity`](crate::Capacity) is left out.
     ABuffer,
     /// Some of the triangles that touch each texel, drawn once from [`CasterMesh`](crate::CasterMesh)es by
-    /// the library's pipelines. They are those that show their far side to the light, and then those that
-    /// show the near one, from the light on. Sides are told by winding: where all triangles of an object are
-    /// wound the wrong way around they are swapped, which does no harm. Beside them the depth of the texels'
-    /// centres ([`Binding::Depth`](super::Binding::Depth)).
+    /// the library's pipelines. Far sides, which show their back to the light, come before near sides,
+    /// and of each the ones nearer to the light first. Winding tells the sides: an object that is wound the wrong
+    /// way around has its near sides kept first, which shadow as well. The depth of the texels' centres is kept, too
+    /// ([`Binding::Depth`](super::Binding::Depth)).
     ///
     /// The technique's WGSL calls `shadow_key(i: u32) -> u32`: of each texel the keys of its triangles, as in
     /// `key.wgsl`, the greatest first, 0 where there are fewer; those of a texel begin at `k` ·

@@ -34,7 +34,7 @@ impl<'a> Depth<'a> {
     }
 
     /// Depth that falls from 1 at the near plane to 0 far away, cleared to 0. Its views must be such too, as those
-    /// that [`View::of_matrix`] makes of a reversed matrix are. Receivers compare one minus the stored depth, so that
+    /// that [`View::of_matrix`](crate::View::of_matrix) makes of a reversed matrix are. Receivers compare one minus the stored depth, so that
     /// comparisons are as precise as with depth that grows; maps that are filtered keep all of its bits.
     #[must_use]
     pub fn reversed(self) -> Self {

@@ -1,5 +1,5 @@
-/// A triangle that touches a texel in 32 bits, the greater the more it is worth keeping; 0 is none. From the
-/// highest bit: whether its near side is seen; its linear depth; its number of `bits` bits; all inverted.
+/// Packs a triangle of a texel into 32 bits; of two keys the greater is that of the triangle to keep, and 0 is
+/// none. From the highest bit: whether its near side is seen; its linear depth; its number of `bits` bits; all inverted.
 fn key_of(near: bool, depth: f32, number: u32, bits: u32) -> u32 {
     return ~(select(0u, key_near, near) | (key_step(depth, bits) << bits) | number);
 }

@@ -1,11 +1,15 @@
 //! Deep primitive maps: every texel keeps the numbers of the nearest triangles that touch it, and lookups
 //! intersect the receiver's ray with those.
 //!
-//! As published, a texel keeps what comes first, and more is lost. Here an atomic maximum per entry leaves
-//! the same triangles in the same order whatever order their fragments come in: first far sides, which lie on
-//! no lit receiver and of closed casters make the whole shadow alone, then near sides; each from the light
-//! on, by linear depth in steps of the bits that numbers leave. Where less than all that touch a texel were kept and none of them is in the way, the centres of the
-//! texels around decide. That is where edges fray: where many small triangles share a texel.
+//! As published, a texel keeps the triangles whose fragments come first and loses the others. Here an atomic
+//! maximum per entry keeps the same triangles in the same order, whatever the order of their fragments: far sides
+//! before near sides, and of each the ones nearer to the light first, by linear depth in as many steps as the bits
+//! of ids leave. Far sides come first since no lit receiver lies on them, and since those of closed casters make
+//! the whole shadow.
+//!
+//! A texel that more triangles touch than are kept may miss the one in the ray's way. Where it finds none, the
+//! depths at the centres of the texels around decide, and edges fray: that is where many small triangles share a
+//! texel.
 //!
 //! Story 2015, "Hybrid Ray-Traced Shadows" (Game Developers Conference); the k-buffer of Bavoil et al.
 //! 2007.
