@@ -39,14 +39,15 @@ bench-cpu: setup
 	$(CARGO) bench --profile release -p antumbra-lab --bench cpu
 
 docs:
-	$(CARGO) run --release -p antumbra-docs
+	$(CARGO) run --release -p antumbra-docs --example docs
 	$(CARGO) run --release -p antumbra-reproduce --bin antumbra-fidelity
 
 # Runs a command that prints JSON and keeps that as a result file.
-KEEP = target/release/antumbra-docs keep
+KEEP = target/release/examples/docs keep
 PROGRAM = target/release/antumbra
 results: setup
-	$(CARGO) build --release --bin antumbra --bin antumbra-docs
+	$(CARGO) build --release --bin antumbra
+	$(CARGO) build --release -p antumbra-docs --example docs
 	$(KEEP) fence $(PROGRAM) bench fence --kernel 7 --rounds 9 --json --techniques all csm.terms=4 \
 		pcf.taps=nearest pcf.taps=bilinear pcf.taps=merged esm.classifier=none esm.classifier=zmax spsm.layers=1 \
 		esm.kernel=31 esm.sampling=summed vsm.sampling=summed csm.terms=4,sampling=summed

@@ -1,6 +1,6 @@
 //! The files that documents are made of and are.
 
-use crate::{Record, Source, fill, refill};
+use crate::{Record, Source, between, fill, refill};
 use anyhow::{Context, Result, bail};
 use serde_json::{Value, json};
 use std::{

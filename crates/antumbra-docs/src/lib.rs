@@ -16,10 +16,12 @@
 //! `:part` behind if the file holds several tables. A document that takes a number from a file without saying
 //! where it comes from is an error.
 
+mod between;
 mod files;
 mod record;
 mod template;
 
-pub use files::{Results, documents, fill_all, keep};
+pub use between::between;
+pub use files::{Results, documents, fill_all, keep, keep_between};
 pub use record::{Cell, Record, Row, Source};
 pub use template::{fill, measured_numbers, refill};

@@ -114,6 +114,15 @@ fn make_has_the_targets_that_documents_name() {
     assert!(seen > 3, "{seen} commands are not all that the documents name");
 }
 
+/// `cargo run` at the root, which documents say, means the program `antumbra`, whatever other programs there are.
+#[test]
+fn one_program_is_run() {
+    assert!(read("Cargo.toml").contains("\ndefault-members = [\"crates/antumbra-cli\"]\n"));
+    let manifest = read("crates/antumbra-cli/Cargo.toml");
+    assert_eq!(manifest.matches("[[bin]]").count(), 1);
+    assert!(manifest.contains("name = \"antumbra\""));
+}
+
 /// The first row of the table of versions is that of the manifest, in the README and in the crate's
 /// documentation.
 #[test]

@@ -4,8 +4,10 @@ use anyhow::{Context, Result, bail};
 use std::{fs, path::Path, process::ExitCode};
 
 const USAGE: &str = "usage:
-  antumbra-docs                        make docs/*.md from docs/*.md.in and docs/results/*.json
-  antumbra-docs keep NAME COMMAND…     run a command that prints JSON and keep it as docs/results/NAME.json";
+  docs                                 make docs/*.md from docs/*.md.in and docs/results/*.json
+  docs keep NAME COMMAND…              run a command that prints JSON and keep it as docs/results/NAME.json
+  docs between NAME COMMIT FILE… -- COMMIT FILE…
+                                       keep how two builds compare, by what bench --json printed of each in turns";
 
 fn main() -> ExitCode {
     match run() {
@@ -33,6 +35,17 @@ fn run() -> Result<()> {
         [keep, name, command @ ..] if keep == "keep" && !command.is_empty() => {
             println!("wrote {}", antumbra_docs::keep(docs, name, command)?.display());
             Ok(())
+        }
+        [between, name, both @ ..] if between == "between" => {
+            let mut sides = both.split(|argument| argument == "--");
+            match [sides.next(), sides.next()] {
+                [Some([before, runs @ ..]), Some([after, later @ ..])] => {
+                    let kept = antumbra_docs::keep_between(docs, name, [before, after], [runs, later])?;
+                    println!("wrote {}", kept.display());
+                    Ok(())
+                }
+                _ => bail!("{USAGE}"),
+            }
         }
         _ => bail!("{USAGE}"),
     }
