@@ -109,6 +109,36 @@ pub fn keep(docs: &Path, name: &str, command: &[String]) -> Result<PathBuf> {
         date: said("date", &["-u", "+%F"], docs)?,
         transcribed: None,
     };
+    write(docs, name, &source, &result)
+}
+
+/// Keeps as the result file `name` how what `bench --json` printed of two builds compares, each named by its commit
+/// and given with the files of its runs.
+///
+/// # Errors
+/// As [`between`]; files that cannot be read or written.
+pub fn keep_between(docs: &Path, name: &str, commits: [&str; 2], runs: [&[String]; 2]) -> Result<PathBuf> {
+    let read = |path: &String| -> Result<Value> {
+        Ok(serde_json::from_slice(&fs::read(path).with_context(|| path.clone())?)?)
+    };
+    let read = |paths: &[String]| paths.iter().map(read).collect::<Result<Vec<Value>>>();
+    let [before, after] = [read(runs[0])?, read(runs[1])?];
+    let result = between(&before, &after)?;
+    let words = after[0].get("command").and_then(Value::as_array).into_iter().flatten();
+    let command: Vec<&str> = words.filter_map(Value::as_str).collect();
+    let source = Source {
+        command: format!("{}, {} times in turns", command.join(" "), before.len()),
+        machine: machine()?,
+        driver: after[0].pointer("/adapter/driver").and_then(Value::as_str).unwrap_or_default().into(),
+        commit: commits.join(" and "),
+        date: said("date", &["-u", "+%F"], docs)?,
+        transcribed: None,
+    };
+    write(docs, name, &source, &result)
+}
+
+/// Writes a result file that can be read.
+fn write(docs: &Path, name: &str, source: &Source, result: &Value) -> Result<PathBuf> {
     let file = json!({ "source": source, "result": result });
     Record::read(&file)?;
     let path = docs.join("results").join(name).with_extension("json");
