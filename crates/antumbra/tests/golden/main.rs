@@ -34,7 +34,7 @@ const CLAIMS: &[Claim] = &[
     ("poisson", "turns bands into noise", comparison::poisson_turns_bands_into_noise),
     ("bicubic", "smoothest edge of four lookups", comparison::bicubic_has_the_smoothest_edge_of_four_lookups),
     ("footprint", "grows with the pixel", comparison::footprint_grows_with_the_pixel),
-    ("packed", "the levels of the paper", comparison::packed_has_the_levels_of_the_paper),
+    ("packed", "all its levels", comparison::packed_has_all_its_levels),
     ("stratified", "as many levels as samples", comparison::stratified_has_as_many_levels_as_samples),
     ("stratified", "resolves as a finer map", comparison::stratified_resolves_as_a_finer_map),
     ("vsm", "bleeds between two layers", basis::vsm_bleeds_between_two_layers),
