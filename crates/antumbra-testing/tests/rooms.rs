@@ -7,7 +7,7 @@ mod modules;
 use modules::{Graph, graph, names};
 
 /// The modules of `crates/antumbra/src`, the lowest first. Each names those before it alone.
-const ROOMS: [&str; 20] = [
+const ROOMS: [&str; 24] = [
     "error",
     "aabb",
     "parameter",
@@ -19,6 +19,9 @@ const ROOMS: [&str; 20] = [
     "kernel",
     "table",
     "bias",
+    "memory",
+    "pipelines",
+    "options",
     "describe",
     "filter",
     "precision",
@@ -28,16 +31,7 @@ const ROOMS: [&str; 20] = [
     "pass",
     "cast",
     "map",
-];
-
-/// What points up still.
-const LEFT: [&str; 6] = [
-    "cast names ShadowMap",
-    "cast names map",
-    "describe names store",
-    "shader names cast",
-    "shader names map",
-    "shader names pass",
+    "listing",
 ];
 
 #[test]
@@ -46,7 +40,7 @@ fn no_arrow_points_up() {
     let missing: Vec<&String> = graph.keys().filter(|room| !ROOMS.contains(&room.as_str())).collect();
     assert!(missing.is_empty(), "which rooms are {missing:?} above?");
     assert!(ROOMS.iter().all(|room| graph.contains_key(*room)), "a room is gone: {:?}", graph.keys());
-    assert_eq!(upward(&graph, &ROOMS), LEFT.map(|arrow| format!("{arrow}: what both need lies below both")));
+    assert_eq!(upward(&graph, &ROOMS), Vec::<String>::new());
 }
 
 #[test]

@@ -6,15 +6,23 @@
 
 use crate::{
     capabilities::Capabilities,
-    describe::CasterStorage,
+    describe::{
+        CasterStorage,
+        store::{Array, Element, Image, Owner, Site, Step, Store},
+    },
     error::Unsupported,
     light::View,
-    map::{MemoryItem, Options, Pipelines, Probe, Textures},
+    memory::MemoryItem,
+    options::{Options, Probe},
+    pipelines::Pipelines,
     shader::{Composition, Shader},
     tile::Tile,
 };
 use std::fmt::Debug;
-use wgpu::{BindGroupLayout, BindingResource, BindingType, Buffer, CommandEncoder, RenderPipeline};
+use wgpu::{
+    BindGroupLayout, BindingResource, BindingType, Buffer, CommandEncoder, LoadOp, RenderPipeline,
+    TextureView,
+};
 
 mod abuffer;
 mod arrays;
@@ -29,24 +37,26 @@ mod pass;
 mod pieces;
 mod pipeline;
 mod split;
-mod store;
 mod triangle;
 mod views;
 
 pub use cutout::CutoutCaster;
 pub use mesh::{CasterMesh, MeshPart};
 pub use pass::CasterPass;
-pub(crate) use pass::Drawn;
-#[cfg(feature = "store")]
-pub use {
-    arrays::{Array, Element, Image, Owner},
-    store::{OwnStore, Site, Step, Store},
-};
-#[cfg(not(feature = "store"))]
-use {
-    arrays::{Array, Element, Image, Owner},
-    store::{Site, Step, Store},
-};
+pub(crate) use pass::{Drawn, compute_pass, limit, written};
+
+/// The map that a store is for.
+fn site<'a>(composition: &Composition, device: &'a Capabilities, options: &Options) -> Site<'a> {
+    Site {
+        technique: composition.description.about.name,
+        size: options.size,
+        views: options.views,
+        layers: options.layer_count(),
+        capacity: options.capacity,
+        asks: composition.asks,
+        device,
+    }
+}
 
 /// The plan of what a technique's casters leave in a map: the only place that knows all stores.
 pub(crate) fn plan<'a>(
@@ -54,7 +64,7 @@ pub(crate) fn plan<'a>(
     device: &'a Capabilities,
     options: &'a Options,
 ) -> Box<dyn Plan + 'a> {
-    let site = Site::new(composition, device, options);
+    let site = site(composition, device, options);
     let ids = |store: Box<dyn Store>| Box::new(ids::IdPlan::new(store, site.clone()));
     match composition.description.storage {
         CasterStorage::Depth => Box::new(depth::DepthPlan),
@@ -64,7 +74,9 @@ pub(crate) fn plan<'a>(
         CasterStorage::ABuffer => ids(Box::new(abuffer::ABuffer)),
         CasterStorage::KBuffer { k } => ids(Box::new(kbuffer::KBuffer { k })),
         #[cfg(feature = "store")]
-        CasterStorage::Own(OwnStore(store)) => Box::new(ids::IdPlan::new(store, site)),
+        CasterStorage::Own(crate::describe::store::OwnStore(store)) => {
+            Box::new(ids::IdPlan::new(store, site))
+        }
     }
 }
 
@@ -84,6 +96,15 @@ pub(crate) trait Plan {
     fn build(&self, device: &wgpu::Device, pipelines: &Pipelines) -> Box<dyn Cast>;
 }
 
+/// What casters are drawn to.
+pub(crate) trait Targets {
+    /// One of the layers that the first map has for a layer of views.
+    fn map_target(&self, layer: usize, of_map: usize) -> &TextureView;
+    /// Depth attachment of a caster pass of a view in a layer, and what is there before: nothing unless it is kept and
+    /// views before this one lie in that layer.
+    fn caster_target(&self, layer: usize, cast: usize, first: bool) -> (&TextureView, LoadOp<f32>);
+}
+
 /// A store on the GPU.
 pub(crate) trait Cast: Debug + wgpu::WasmNotSendSync {
     /// Takes this frame's views, and where they lie.
@@ -93,7 +114,7 @@ pub(crate) trait Cast: Debug + wgpu::WasmNotSendSync {
         &self,
         encoder: &mut CommandEncoder,
         seen: Seen<'_>,
-        textures: &Textures,
+        targets: &dyn Targets,
         probe: &mut dyn Probe,
         draw: &mut dyn FnMut(&mut CasterPass<'_>),
     );

@@ -10,6 +10,7 @@ use std::fmt::Debug;
 mod description;
 pub(crate) mod map;
 mod storage;
+pub(crate) mod store;
 pub(crate) mod wgsl;
 
 pub use description::Description;

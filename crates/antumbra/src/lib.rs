@@ -174,9 +174,13 @@ mod error;
 mod filter;
 mod kernel;
 mod light;
+mod listing;
 mod map;
+mod memory;
+mod options;
 mod parameter;
 mod pass;
+mod pipelines;
 mod precision;
 mod shader;
 mod table;
@@ -187,7 +191,7 @@ mod tile;
 /// [`CasterStorage::Own`](technique::CasterStorage::Own). Not settled: minor versions may change it.
 #[cfg(feature = "store")]
 pub mod store {
-    pub use crate::cast::{Array, Element, Image, OwnStore, Owner, Site, Step, Store};
+    pub use crate::describe::store::{Array, Element, Image, OwnStore, Owner, Site, Step, Store};
 }
 
 pub use glam;
@@ -201,11 +205,11 @@ pub use error::{CasterError, DescriptionError, LightError, MeshError, NameError,
 pub use filter::{Filter, Sampling, Values};
 pub use kernel::{Kernel, Weights};
 pub use light::{Bounds, CameraFit, Cascades, Fit, Light, Size, View};
-pub use map::{
-    DEPTH_FORMAT, Depth, Lifetime, Memory, MemoryItem, NoProbe, Options, Pipelines, PrepareError, Probe,
-    ShadowMap,
-};
+pub use map::{Depth, PrepareError, ShadowMap};
+pub use memory::{Lifetime, Memory, MemoryItem};
+pub use options::{DEPTH_FORMAT, NoProbe, Options, Probe};
 pub use parameter::{Choice, Field, Parameter};
+pub use pipelines::Pipelines;
 pub use precision::Precision;
 pub use shader::{CASTER_WGSL, Shader, ShaderText};
 pub use table::Table;

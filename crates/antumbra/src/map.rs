@@ -1,4 +1,4 @@
-//! The shadow map on the GPU: what is allocated, encoded and bound. Only files in `map/` and `cast/` create GPU objects.
+//! The shadow map on the GPU: what is allocated, encoded and bound. Only `map/`, `cast/` and `pipelines.rs` create GPU objects.
 
 use crate::{
     capabilities::Capabilities,
@@ -6,42 +6,35 @@ use crate::{
     cast::{self, Cast, Plan},
     describe::{Description, Technique},
     light::{Size, View},
+    memory::{Lifetime, Memory, MemoryItem},
+    options::{DEPTH_FORMAT, NoProbe, Options, Probe},
+    pipelines::Pipelines,
     shader::{Composition, ShaderText},
     tile::Tile,
 };
 use std::sync::atomic::{AtomicU32, Ordering};
-use wgpu::TextureFormat;
 
 mod adjust;
 mod answer;
 mod brought;
 mod build;
 mod check;
+mod compile;
+mod cutout;
 mod draw;
 mod encode;
 mod explain;
-mod memory;
-mod options;
-mod pipelines;
 mod prepare;
 mod receiver;
 mod textures;
 mod uniforms;
 
-pub(crate) use answer::ask_now;
 pub use brought::Depth;
 use draw::Draw;
-pub(crate) use draw::{compute_pass, limit};
-pub use memory::{Lifetime, Memory, MemoryItem};
-pub use options::{NoProbe, Options, Probe};
-pub use pipelines::Pipelines;
 pub use prepare::PrepareError;
 use receiver::Samplers;
-pub(crate) use textures::{Textures, written};
+use textures::Textures;
 use uniforms::Uniforms;
-
-/// Format of the depth that casters draw into.
-pub const DEPTH_FORMAT: TextureFormat = TextureFormat::Depth32Float;
 
 /// Textures, pipelines and bindings of one technique at one size.
 ///
@@ -146,7 +139,7 @@ impl ShadowMap {
     /// [`wgsl`](Self::wgsl) for [`bind_group_entries`](Self::bind_group_entries) that begin at `@binding(first)`.
     #[must_use]
     pub fn wgsl_at(&self, group: u32, first: u32) -> ShaderText {
-        self.composition.receiver(self.plan().as_ref(), (group, first))
+        self.composition.receiver(|group, first| self.plan().lookups(group, first), (group, first))
     }
 
     /// What its store is planned like.

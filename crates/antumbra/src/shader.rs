@@ -7,7 +7,6 @@
 
 mod compose;
 mod files;
-mod listing;
 mod names;
 mod receiver;
 pub(crate) mod settings;
@@ -17,7 +16,18 @@ pub(crate) use compose::Composition;
 pub use files::CASTER_WGSL;
 pub(crate) use files::check as check_files;
 pub(crate) use files::text as file;
-pub use listing::Shader;
+
+/// A shader that a [`ShadowMap`](crate::ShadowMap) compiles.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Shader {
+    /// What it is for: `cast`, `cut-out`, `scan`, `convert`, `blur`, `mips` or `sum`.
+    pub pass: &'static str,
+    /// A whole WGSL module with entry points `vertex` and `fragment`, or `compute`.
+    pub text: String,
+    /// Formats of the colours that it draws to.
+    pub targets: Vec<wgpu::TextureFormat>,
+}
 
 /// A shader in pieces that remember which file they came from.
 #[derive(Debug, Clone, Default)]

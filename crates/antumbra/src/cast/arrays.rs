@@ -1,67 +1,8 @@
 //! Arrays and images that stores keep triangles in, and the WGSL through which shaders reach them.
 
-#![cfg_attr(not(feature = "store"), allow(unreachable_pub, reason = "public with the feature alone"))]
-
-use super::{Site, split::Split};
+use super::split::Split;
+use crate::describe::store::{Array, Element, Image, Owner, Site};
 use std::fmt::Write;
-
-/// Numbers that casters leave, in as many buffers as bindings of the device need.
-///
-/// Where it is drawn or computed, WGSL calls `NAME_load(i) -> u32`, `NAME_store(i, value)` and, atomically,
-/// `NAME_add`, `NAME_max` and `NAME_or(i, value) -> u32`, which return what was there. Lookups call
-/// `NAME_load(i)`.
-#[derive(Debug, Clone)]
-pub struct Array {
-    /// What the functions' names begin with.
-    pub name: &'static str,
-    /// What it is called in [`ShadowMap::memory`](crate::ShadowMap::memory), behind the store's name.
-    pub title: &'static str,
-    /// What it holds.
-    pub element: Element,
-    /// Number of elements of one owner.
-    pub length: u64,
-    /// Whose they are.
-    pub owner: Owner,
-    /// Whether elements are filled with zeros before casters are drawn, once in a frame for each owner.
-    pub cleared: bool,
-    /// Whether lookups read it.
-    pub looked_up: bool,
-}
-
-/// Who has elements of an [`Array`] of its own; those of several lie one behind the other.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Owner {
-    /// Each view, with `caster_step.view`.
-    View,
-    /// Each layer, with `caster_view.layer`: views have one each unless they are [tiles](crate::Tile).
-    Layer,
-    /// Nobody: views, which are drawn one after the other, share them.
-    Shared,
-}
-
-/// An element of an [`Array`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Element {
-    /// `u32`.
-    Word,
-    /// Three `vec4f`: `NAME_load(i, k) -> vec4f`, `NAME_store(i, k, value)`.
-    Corners,
-}
-
-/// A texture of `u32` that is written in storage passes: `NAME_store(at: vec2u, layer: u32, value: u32)`,
-/// with the layers that it has for one layer of views; `NAME_size() -> vec2u`. Lookups call `NAME_load(view: u32, at: vec2u, layer:
-/// u32) -> u32`.
-#[derive(Debug, Clone)]
-pub struct Image {
-    /// What the functions' names begin with.
-    pub name: &'static str,
-    /// What it is called in [`ShadowMap::memory`](crate::ShadowMap::memory), behind the store's name.
-    pub title: &'static str,
-    /// Texels across and down.
-    pub size: [u32; 2],
-    /// Layers for each layer of views.
-    pub layers: u32,
-}
 
 impl Element {
     /// Bytes of an element.

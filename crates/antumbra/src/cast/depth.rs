@@ -1,11 +1,7 @@
 //! Casters that leave depth, by the renderer's own pipelines.
 
-use super::{Cast, CasterPass, Plan, Seen, pass};
-use crate::{
-    error::Unsupported,
-    map::{Pipelines, Probe, Textures},
-    shader::Shader,
-};
+use super::{Cast, CasterPass, Plan, Seen, Targets, pass};
+use crate::{error::Unsupported, options::Probe, pipelines::Pipelines, shader::Shader};
 use wgpu::{BindGroupLayout, CommandEncoder, RenderPipeline, StoreOp};
 
 /// Nothing is allocated beside the depth, which the map has in any case.
@@ -35,11 +31,11 @@ impl Cast for DepthCast {
         &self,
         encoder: &mut CommandEncoder,
         seen: Seen<'_>,
-        textures: &Textures,
+        targets: &dyn Targets,
         probe: &mut dyn Probe,
         draw: &mut dyn FnMut(&mut CasterPass<'_>),
     ) {
-        let depth = (textures.caster_target(seen.layer(), seen.cast, seen.first), StoreOp::Store);
+        let depth = (targets.caster_target(seen.layer(), seen.cast, seen.first), StoreOp::Store);
         let pass = pass::begin(encoder, None, depth, probe.pass("cast", seen.view));
         draw(&mut CasterPass::new(pass, seen, None));
     }

@@ -1,8 +1,8 @@
 //! Plans what stores that keep triangles by id describe: texts, sizes, checks. `ids/on_device.rs` makes it.
 
 use super::{
-    Cast, Owner, Plan, Site, Step, Store,
-    arrays::{Array, Element, Image, Storage, called},
+    Array, Cast, Element, Image, Owner, Plan, Site, Step, Store,
+    arrays::{Storage, called},
     refused,
     split::Split,
     triangle::{self, Holes, PULLED, TrianglePass, VIEW},
@@ -11,7 +11,7 @@ use crate::{
     capacity,
     describe::Coverage,
     error::Unsupported,
-    map::Pipelines,
+    pipelines::Pipelines,
     shader::{Shader, ShaderText, check_files},
 };
 use std::ops::Deref;

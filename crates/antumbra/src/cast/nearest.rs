@@ -1,7 +1,7 @@
 //! Casters of which each texel keeps the nearest triangle, drawn straight into the technique's only map.
 
 use super::{
-    Cast, CasterPass, Plan, Seen,
+    Cast, CasterPass, Plan, Seen, Targets,
     objects::{self, UNIFORM},
     pass::{self, MeshPipeline},
     pipeline::Recipe,
@@ -13,7 +13,9 @@ use crate::{
     describe::Coverage,
     error::Unsupported,
     light::View,
-    map::{MemoryItem, Options, Pipelines, Probe, Textures, written},
+    memory::MemoryItem,
+    options::{Options, Probe},
+    pipelines::Pipelines,
     shader::{Composition, Shader},
     tile::Tile,
 };
@@ -161,13 +163,13 @@ impl Cast for NearestCast {
         &self,
         encoder: &mut CommandEncoder,
         seen: Seen<'_>,
-        textures: &Textures,
+        targets: &dyn Targets,
         probe: &mut dyn Probe,
         draw: &mut dyn FnMut(&mut CasterPass<'_>),
     ) {
         for layer in 0..self.pulled.len() {
-            let target = written(textures.map_target(seen.layer(), layer), seen.first);
-            let depth = (textures.caster_target(seen.layer(), seen.cast, seen.first), StoreOp::Store);
+            let target = pass::written(targets.map_target(seen.layer(), layer), seen.first);
+            let depth = (targets.caster_target(seen.layer(), seen.cast, seen.first), StoreOp::Store);
             let pass = pass::begin(encoder, Some(target), depth, probe.pass("cast", seen.view));
             draw(&mut CasterPass::new(pass, seen, Some(self.meshes(seen, layer))));
         }

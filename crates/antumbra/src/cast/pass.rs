@@ -4,11 +4,11 @@ use super::{CasterMesh, CutoutCaster, Seen, views::perspective};
 use crate::{
     describe::{CasterStorage, Description},
     error::CasterError,
-    light::View,
-    map,
+    light::{Size, View},
+    tile::Tile,
 };
 use std::ops::{Deref, DerefMut, Range, RangeBounds};
-use wgpu::{BindGroup, RenderPass, RenderPipeline};
+use wgpu::{BindGroup, LoadOp, RenderPass, RenderPipeline, TextureView};
 
 /// What the closure of [`ShadowMap::encode`](crate::ShadowMap::encode) draws casters in: wgpu's render
 /// pass, which it dereferences to. Where the technique keeps depth, the caller's own pipelines draw in it, and
@@ -44,7 +44,7 @@ impl<'a> CasterPass<'a> {
         let Seen { index, from: view, .. } = seen;
         let mut pass = pass;
         if seen.tiled {
-            map::limit(&mut pass, &seen.tile);
+            limit(&mut pass, &seen.tile);
         }
         Self { pass, view, index, meshes, set: None, next_id: 0, drawn: Drawn::default() }
     }
@@ -191,4 +191,40 @@ impl Drawn {
             _ => Ok(()),
         }
     }
+}
+
+/// Begins a compute pass with the timestamps of a render pass.
+pub(crate) fn compute_pass<'a>(
+    encoder: &'a mut wgpu::CommandEncoder,
+    label: &str,
+    timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
+) -> wgpu::ComputePass<'a> {
+    encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+        label: Some(label),
+        timestamp_writes: timestamps.map(|t| wgpu::ComputePassTimestampWrites {
+            query_set: t.query_set,
+            beginning_of_pass_write_index: t.beginning_of_pass_write_index,
+            end_of_pass_write_index: t.end_of_pass_write_index,
+        }),
+    })
+}
+
+/// A colour attachment of which every texel is written, or every texel of a tile: the others are kept.
+pub(crate) fn written(view: &TextureView, all: bool) -> wgpu::RenderPassColorAttachment<'_> {
+    wgpu::RenderPassColorAttachment {
+        view,
+        depth_slice: None,
+        resolve_target: None,
+        ops: wgpu::Operations {
+            load: if all { LoadOp::Clear(wgpu::Color::TRANSPARENT) } else { LoadOp::Load },
+            store: wgpu::StoreOp::Store,
+        },
+    }
+}
+
+/// Confines a pass to a part of its targets.
+pub(crate) fn limit(pass: &mut wgpu::RenderPass<'_>, tile: &Tile) {
+    let Tile { origin: [x, y], size: Size { width, height }, .. } = *tile;
+    pass.set_viewport(x as f32, y as f32, width as f32, height as f32, 0.0, 1.0);
+    pass.set_scissor_rect(x, y, width, height);
 }

@@ -1,7 +1,7 @@
 //! Storage arrays in as many buffers as bindings of the device need.
 
 use super::{objects, split::Split};
-use crate::map::MemoryItem;
+use crate::memory::MemoryItem;
 use std::ops::Range;
 use wgpu::{BindingResource, Buffer, BufferUsages};
 

@@ -1,7 +1,7 @@
 //! Pipelines that draw the triangles of meshes.
 
 use super::objects::{self, UNIFORM};
-use crate::map::DEPTH_FORMAT;
+use crate::options::DEPTH_FORMAT;
 use wgpu::{BindGroupLayout, CompareFunction, RenderPipeline, ShaderStages, TextureFormat};
 
 /// What a pipeline is made of.

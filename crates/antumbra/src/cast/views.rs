@@ -4,7 +4,7 @@ use super::objects;
 use crate::{
     describe::Coverage,
     light::{Size, View},
-    map::MemoryItem,
+    memory::MemoryItem,
     tile::Tile,
 };
 use wgpu::{BindingResource, Buffer, BufferUsages};

@@ -41,7 +41,7 @@ pub enum CasterStorage {
     },
     /// Triangles by id, as a store of the technique's own keeps them.
     #[cfg(feature = "store")]
-    Own(crate::store::OwnStore),
+    Own(super::store::OwnStore),
 }
 
 impl CasterStorage {

@@ -53,7 +53,7 @@ pub(super) fn ask<T, M: FnOnce() -> T>(
 }
 
 /// The same where devices answer at once; elsewhere no answer.
-pub(crate) fn ask_now<T>(device: &Device, make: impl FnOnce() -> T) -> (T, Option<Refusal>) {
+pub(super) fn ask_now<T>(device: &Device, make: impl FnOnce() -> T) -> (T, Option<Refusal>) {
     if device.adapter_info().backend == wgpu::Backend::BrowserWebGpu {
         return (make(), None);
     }

@@ -1,14 +1,11 @@
 //! The passes between casting and lighting, one after the other.
 
-use super::{
-    DEPTH_FORMAT,
-    pipelines::{Compiled, Pipelines},
-    textures::{self, Textures},
-    uniforms::Uniforms,
-};
+use super::{DEPTH_FORMAT, Pipelines, textures::Textures, uniforms::Uniforms};
 use crate::{
+    cast::{compute_pass, limit, written},
     light::Size,
     pass::{self, Axis, FilterStep, Holder, Work},
+    pipelines::Compiled,
     shader::Composition,
     tile::Tile,
 };
@@ -87,7 +84,7 @@ impl Draw {
         match &self.run {
             Compiled::Draw(pipeline) => {
                 let attachments: [_; MOST_TARGETS] =
-                    std::array::from_fn(|i| self.targets.get(i).map(|t| textures::written(t, !self.tiled)));
+                    std::array::from_fn(|i| self.targets.get(i).map(|t| written(t, !self.tiled)));
                 let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                     label: Some(self.label),
                     color_attachments: &attachments[..self.targets.len()],
@@ -113,27 +110,4 @@ impl Draw {
             }
         }
     }
-}
-
-/// Confines a pass to a part of its targets.
-pub(crate) fn limit(pass: &mut wgpu::RenderPass<'_>, tile: &Tile) {
-    let Tile { origin: [x, y], size: Size { width, height }, .. } = *tile;
-    pass.set_viewport(x as f32, y as f32, width as f32, height as f32, 0.0, 1.0);
-    pass.set_scissor_rect(x, y, width, height);
-}
-
-/// Begins a compute pass with the timestamps of a render pass.
-pub(crate) fn compute_pass<'a>(
-    encoder: &'a mut wgpu::CommandEncoder,
-    label: &str,
-    timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
-) -> wgpu::ComputePass<'a> {
-    encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
-        label: Some(label),
-        timestamp_writes: timestamps.map(|t| wgpu::ComputePassTimestampWrites {
-            query_set: t.query_set,
-            beginning_of_pass_write_index: t.beginning_of_pass_write_index,
-            end_of_pass_write_index: t.end_of_pass_write_index,
-        }),
-    })
 }

@@ -1,12 +1,9 @@
 //! The textures of a shadow map and the views of their layers and levels.
 
-use super::{
-    DEPTH_FORMAT, Depth, Options, brought,
-    memory::{Lifetime, Memory, MemoryItem},
-    uniforms::Uniforms,
-};
+use super::{DEPTH_FORMAT, Depth, Lifetime, Memory, MemoryItem, Options, brought, uniforms::Uniforms};
 use crate::{
     capabilities::Capabilities,
+    cast::Targets,
     describe::{Binding, Description, Map, Pass},
     light::Size,
     pass::{self, FilterStep, Holder, Place},
@@ -108,25 +105,6 @@ impl Textures {
         }
     }
 
-    /// One of the layers that the first map has for a layer of views.
-    pub(crate) fn map_target(&self, layer: usize, of_map: usize) -> &TextureView {
-        &self.map_targets[layer * self.maps[0].layers as usize + of_map]
-    }
-
-    /// Depth attachment of a caster pass of a view in a layer, and what is there before: nothing unless it is kept and
-    /// views before this one lie in that layer.
-    pub(crate) fn caster_target(
-        &self,
-        layer: usize,
-        cast: usize,
-        first: bool,
-    ) -> (&TextureView, LoadOp<f32>) {
-        let transient = self.casters_lifetime == Lifetime::Transient;
-        // Four passes are converted together.
-        let target = &self.caster_targets[if transient { cast } else { layer } % self.caster_targets.len()];
-        (target, if transient || first { LoadOp::Clear(1.0) } else { LoadOp::Load })
-    }
-
     /// All layers of the casters' depth.
     pub(super) fn casters_array(&self) -> &TextureView {
         &self.casters_array
@@ -198,6 +176,19 @@ impl Textures {
     }
 }
 
+impl Targets for Textures {
+    fn map_target(&self, layer: usize, of_map: usize) -> &TextureView {
+        &self.map_targets[layer * self.maps[0].layers as usize + of_map]
+    }
+
+    fn caster_target(&self, layer: usize, cast: usize, first: bool) -> (&TextureView, LoadOp<f32>) {
+        let transient = self.casters_lifetime == Lifetime::Transient;
+        // Four passes are converted together.
+        let target = &self.caster_targets[if transient { cast } else { layer } % self.caster_targets.len()];
+        (target, if transient || first { LoadOp::Clear(1.0) } else { LoadOp::Load })
+    }
+}
+
 fn texture(
     device: &wgpu::Device,
     label: &str,
@@ -250,19 +241,6 @@ fn some(texture: &wgpu::Texture, layers: Range<u32>, mip: Option<u32>) -> Textur
 
 fn aspect(texture: &wgpu::Texture) -> TextureAspect {
     if texture.format().has_depth_aspect() { TextureAspect::DepthOnly } else { TextureAspect::All }
-}
-
-/// A colour attachment of which every texel is written, or every texel of a tile: the others are kept.
-pub(crate) fn written(view: &TextureView, all: bool) -> wgpu::RenderPassColorAttachment<'_> {
-    wgpu::RenderPassColorAttachment {
-        view,
-        depth_slice: None,
-        resolve_target: None,
-        ops: wgpu::Operations {
-            load: if all { LoadOp::Clear(wgpu::Color::TRANSPARENT) } else { LoadOp::Load },
-            store: wgpu::StoreOp::Store,
-        },
-    }
 }
 
 /// The sampler of a binding (an unused one for textures).

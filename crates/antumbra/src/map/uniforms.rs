@@ -1,6 +1,6 @@
 //! The uniform buffers of receivers and of the convert pass.
 
-use super::{Options, memory::MemoryItem};
+use super::{MemoryItem, Options};
 use crate::{
     bias::BiasTerms,
     describe::{Description, Pass},

@@ -9,7 +9,7 @@ use crate::{
     capabilities::Capabilities,
     describe::{Constant, Description, Technique},
     error::{DescriptionError, Unsupported},
-    map::Options,
+    options::Options,
 };
 
 /// A description whose WGSL is put together: what all passes and receivers are written from.

@@ -5,10 +5,7 @@ use super::{
     compose::Composition,
     settings::{self, Reader},
 };
-use crate::{
-    cast::Plan,
-    describe::{Binding, DepthSpace, Description, Family, Map},
-};
+use crate::describe::{Binding, DepthSpace, Description, Family, Map};
 use std::fmt::Write;
 
 /// What projecting, interpolating and storing as a float do to a projected depth: eight units in the
@@ -16,15 +13,15 @@ use std::fmt::Write;
 const ROUNDING: &str = "4.8e-7";
 
 impl Composition {
-    /// `shadow_visibility` and everything it needs, bound in a group from a binding on; it may call the user's
+    /// `shadow_visibility` and everything it needs, bound in a group from a binding on, with `lookups` of what is kept of casters behind; it may call the user's
     /// `shadow_covers` about cut-outs.
-    pub(crate) fn receiver(&self, plan: &dyn Plan, at: (u32, u32)) -> ShaderText {
+    pub(crate) fn receiver(&self, lookups: impl FnOnce(u32, u32) -> String, at: (u32, u32)) -> ShaderText {
         let (group, first) = at;
         let description = &self.description;
         let mut glue = uniforms(description, self.most, at);
         glue += &settings::accessors(self, Reader::Receiver);
         let arguments = bindings(&mut glue, description, at);
-        glue += &plan.lookups(group, first + description.bindings.len() as u32 + 1);
+        glue += &lookups(group, first + description.bindings.len() as u32 + 1);
         glue += &self.function(&arguments, "visibility", ["f32", "1.0"]);
         if !description.classes.is_empty() {
             glue += &self.function(&arguments, "class", ["u32", "0u"]);

@@ -18,7 +18,8 @@ fn options() -> Options {
 /// What receivers call, and whatever that binds in group 2.
 fn receiver(composition: &Composition, device: &Capabilities) -> ShaderText {
     let options = options();
-    composition.receiver(cast::plan(composition, device, &options).as_ref(), (2, 0))
+    composition
+        .receiver(|group, first| cast::plan(composition, device, &options).lookups(group, first), (2, 0))
 }
 
 /// Everything and nothing of what devices may lack.

@@ -3,8 +3,8 @@
 use super::{FIRST, IdPlan, VERTICES};
 use crate::{
     cast::{
-        Cast, CasterPass, Owner, Seen, Site, Step, Store,
-        arrays::{Array, Image, Storage, called},
+        Array, Cast, CasterPass, Image, Owner, Seen, Site, Step, Store, Targets,
+        arrays::{Storage, called},
         objects::{self, OF_VIEW},
         pass::{self, MeshPipeline},
         pieces::Pieces,
@@ -15,7 +15,9 @@ use crate::{
     },
     describe::Coverage,
     light::{Size, View},
-    map::{Lifetime, MemoryItem, Pipelines, Probe, Textures, compute_pass},
+    memory::{Lifetime, MemoryItem},
+    options::Probe,
+    pipelines::Pipelines,
     tile::Tile,
 };
 use std::ops::Deref;
@@ -268,7 +270,7 @@ impl Cast for IdCast {
         &self,
         encoder: &mut CommandEncoder,
         seen: Seen<'_>,
-        textures: &Textures,
+        targets: &dyn Targets,
         probe: &mut dyn Probe,
         draw: &mut dyn FnMut(&mut CasterPass<'_>),
     ) {
@@ -289,7 +291,7 @@ impl Cast for IdCast {
             match step {
                 Bound::Draw(groups) => {
                     let store = if writes { StoreOp::Store } else { StoreOp::Discard };
-                    let depth = (textures.caster_target(seen.layer(), 0, seen.first), store);
+                    let depth = (targets.caster_target(seen.layer(), 0, seen.first), store);
                     let pass = pass::begin(encoder, None, depth, probe.pass("cast", seen.view));
                     let pipeline = &self.pipelines[perspective(seen.from) as usize];
                     let group = &groups[seen.layer()];
@@ -297,7 +299,7 @@ impl Cast for IdCast {
                     draw(&mut CasterPass::new(pass, seen, Some(meshes)));
                 }
                 Bound::Compute { label, pipeline, texels, groups } => {
-                    let mut pass = compute_pass(encoder, label, probe.pass(label, seen.view));
+                    let mut pass = pass::compute_pass(encoder, label, probe.pass(label, seen.view));
                     pass.set_pipeline(pipeline);
                     pass.set_bind_group(0, &groups[seen.layer()], &offsets);
                     let Size { width, height } = seen.tile.size;

@@ -60,7 +60,9 @@ fn composed(technique: &dyn Technique) -> Composition {
 /// The receiver's text for three views.
 fn receiver(composition: &Composition) -> String {
     let (device, options) = (Capabilities::least(), options());
-    composition.receiver(cast::plan(composition, &device, &options).as_ref(), (0, 0)).text()
+    composition
+        .receiver(|group, first| cast::plan(composition, &device, &options).lookups(group, first), (0, 0))
+        .text()
 }
 
 fn same(wgsl: &str, description: &Description) -> Result<(), String> {

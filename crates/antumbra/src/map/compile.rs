@@ -1,95 +1,19 @@
-//! One cache of full-screen pipelines per device.
+//! How steps over texels are compiled and bound.
 
-use crate::pass::{FilterStep, Holder, Work};
-use std::{
-    collections::HashMap,
-    sync::{Arc, Mutex, PoisonError},
+use crate::{
+    pass::{FilterStep, Holder, Work},
+    pipelines::{Compiled, Pipeline, Pipelines},
 };
-use wgpu::{
-    BindGroup, BindGroupLayout, BindingType, ComputePipeline, RenderPipeline, TextureFormat, TextureView,
-};
-
-type Key = (String, Vec<TextureFormat>);
-
-/// The pipelines of the passes between casting and lighting, each compiled once. Clones share.
-#[derive(Debug, Clone)]
-pub struct Pipelines {
-    device: wgpu::Device,
-    nearest: wgpu::Sampler,
-    made: Arc<Mutex<HashMap<Key, Pipeline>>>,
-    casters: Arc<Mutex<HashMap<Key, RenderPipeline>>>,
-}
-
-/// A compiled step.
-#[derive(Debug, Clone)]
-pub(super) struct Pipeline {
-    pub(super) run: Compiled,
-    layout: BindGroupLayout,
-}
-
-/// What a step is run by.
-#[derive(Debug, Clone)]
-pub(super) enum Compiled {
-    /// A triangle over all of the view.
-    Draw(RenderPipeline),
-    /// A compute shader whose invocations are rows or columns.
-    Dispatch(ComputePipeline),
-}
+use std::sync::PoisonError;
+use wgpu::{BindGroup, BindGroupLayout, BindingType, RenderPipeline, TextureFormat, TextureView};
 
 impl Pipelines {
-    /// An empty cache.
-    #[must_use]
-    pub fn new(device: &wgpu::Device) -> Self {
-        Self {
-            device: device.clone(),
-            nearest: device.create_sampler(&wgpu::SamplerDescriptor {
-                label: Some("shadow nearest"),
-                ..Default::default()
-            }),
-            made: Arc::default(),
-            casters: Arc::default(),
-        }
-    }
-
-    /// Number of pipelines compiled so far.
-    #[must_use]
-    pub fn len(&self) -> usize {
-        self.made.lock().unwrap_or_else(PoisonError::into_inner).len()
-    }
-
-    /// Texts of the shaders of the pipelines compiled so far, casters' included, in no order; see
-    /// [`Shader::all`](crate::Shader::all).
-    #[must_use]
-    pub fn shaders(&self) -> Vec<String> {
-        let made = self.made.lock().unwrap_or_else(PoisonError::into_inner);
-        let casters = self.casters.lock().unwrap_or_else(PoisonError::into_inner);
-        made.keys().chain(casters.keys()).map(|(text, _)| text.clone()).collect()
-    }
-
-    /// Whether nothing was compiled yet.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-
     /// The pipeline of a step whose targets have these formats.
     pub(super) fn get(&self, step: &FilterStep, formats: &[TextureFormat]) -> Pipeline {
         let mut made = self.made.lock().unwrap_or_else(PoisonError::into_inner);
         made.entry((step.shader.clone(), formats.to_vec()))
             .or_insert_with(|| self.compile(step, formats))
             .clone()
-    }
-
-    /// A caster's pipeline, which `compile` makes unless it is there.
-    pub(crate) fn caster(
-        &self,
-        shader: &str,
-        formats: &[TextureFormat],
-        compile: impl FnOnce(&wgpu::Device) -> RenderPipeline,
-    ) -> RenderPipeline {
-        let mut made = self.casters.lock().unwrap_or_else(PoisonError::into_inner);
-        let key = (shader.to_string(), formats.to_vec());
-        made.entry(key).or_insert_with(|| compile(&self.device)).clone()
     }
 
     fn compile(&self, step: &FilterStep, formats: &[TextureFormat]) -> Pipeline {

@@ -1,27 +1,14 @@
 //! All shaders of a technique, without a device: for those who check or compile them beforehand.
 
-use super::{Composition, ShaderText};
 use crate::{
     capabilities::Capabilities,
     cast,
     describe::Technique,
     error::Unsupported,
-    map::{DEPTH_FORMAT, Options},
+    options::{DEPTH_FORMAT, Options},
     pass::{self, Holder, Work},
+    shader::{Composition, Shader, ShaderText},
 };
-use wgpu::TextureFormat;
-
-/// A shader that a [`ShadowMap`](crate::ShadowMap) compiles.
-#[derive(Debug, Clone, PartialEq, Eq)]
-#[non_exhaustive]
-pub struct Shader {
-    /// What it is for: `cast`, `cut-out`, `scan`, `convert`, `blur`, `mips` or `sum`.
-    pub pass: &'static str,
-    /// A whole WGSL module with entry points `vertex` and `fragment`, or `compute`.
-    pub text: String,
-    /// Formats of the colours that it draws to.
-    pub targets: Vec<TextureFormat>,
-}
 
 impl Shader {
     /// Every shader that a map of a technique with these options may compile on such a device, each text
@@ -72,6 +59,6 @@ impl ShaderText {
     ) -> Result<Self, Unsupported> {
         let composition = Composition::of(technique, device, options)?;
         let plan = cast::plan(&composition, device, options);
-        Ok(composition.receiver(plan.as_ref(), (group, 0)))
+        Ok(composition.receiver(|group, first| plan.lookups(group, first), (group, 0)))
     }
 }

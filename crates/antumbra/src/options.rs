@@ -1,7 +1,9 @@
 //! How a shadow map is made, and who listens to its passes.
 
-use super::Pipelines;
-use crate::{capacity::Capacity, light::Size, technique::Bias};
+use crate::{bias::Bias, capacity::Capacity, light::Size, pipelines::Pipelines};
+
+/// Format of the depth that casters draw into.
+pub const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
 /// How a [`ShadowMap`](crate::ShadowMap) is made. A [`Size`] alone is enough.
 #[derive(Debug, Clone)]
