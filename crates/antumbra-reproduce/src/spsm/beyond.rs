@@ -1,6 +1,6 @@
 //! Beyond the paper: from one triangle per texel to all.
 
-use super::quality::studied;
+use super::{PUBLISHED, quality::studied};
 use crate::{
     gallery,
     page::{Cell, Page, Table, Unit},
@@ -10,7 +10,6 @@ use crate::{
 };
 use anyhow::{Context, Result};
 
-const PUBLISHED: &str = "spsm.packing=map,layers=1";
 const SIX: &str = "dpm.keeps=6";
 /// By number of triangles kept.
 const ENTRIES: [(&str, &str); 6] = [
@@ -22,7 +21,7 @@ const ENTRIES: [(&str, &str); 6] = [
     ("exact", "all"),
 ];
 /// Those that are shown.
-const SHOWN: [&str; 4] = ["hard", "spsm", "dpm", "exact"];
+const SHOWN: [&str; 5] = ["hard", PUBLISHED, "spsm", "dpm", "exact"];
 const SCENE: &str = "tangle";
 const RESOLUTION: [u32; 2] = [1920, 1080];
 const MAPS: [u32; 3] = [512, 1024, 2048];
@@ -51,7 +50,7 @@ pub(super) fn beyond(bench: &Workbench<'_>) -> Result<Page> {
             }
             pictures.push(("rays", &truth.picture));
             let window = gallery::window(&difference(pictures[1].1, &truth.picture), pictures[1].1, 12);
-            let captions = ["Maps of 1024².", "Enlarged: where SPSM looks most wrong."];
+            let captions = ["Maps of 1024².", "Enlarged: where SPSM as published looks most wrong."];
             gallery::rows(&mut page, captions, 3, &pictures, window)?;
             for (bytes, look) in bytes.iter_mut().zip(&study.looks) {
                 *bytes = look.memory.kept_bytes;
@@ -82,6 +81,7 @@ pub(super) fn beyond(bench: &Workbench<'_>) -> Result<Page> {
         anyhow::Ok(matches[entry][map])
     };
     page.verdict(published(at(PUBLISHED, 2)?));
+    page.verdict(two_layers(at("spsm", 2)?));
     page.verdict(right(at("dpm", 2)?));
     page.verdict(smaller(at(SIX, 1)?, large));
     Ok(page)
@@ -96,6 +96,18 @@ fn published(found: f64) -> Verdict {
         "SPSM as published matches 99.63 % of the pixels with a 2048² map",
         Ran::new(&format!("{RAN}, 2048²"), [PUBLISHED]),
         [at_least("its pixel match", found, "the paper's", PAPER).document("§6.2")],
+    )
+}
+
+fn two_layers(found: f64) -> Verdict {
+    Verdict::new(
+        ours(
+            "the paper names shadow fusion as its limit, and several rasterisations as future work (§6.4, §7)",
+        ),
+        "With a second layer SPSM matches 99.9 % of the pixels at 2048²",
+        Ran::new(&format!("{RAN}, 2048²"), ["spsm"]),
+        [at_least("its pixel match", found, "99.9 %", RIGHT)
+            .ours("one wrong pixel of a thousand is a quarter of what the paper has")],
     )
 }
 
@@ -128,6 +140,8 @@ mod tests {
     fn verdicts_follow_their_numbers() {
         assert_eq!(published(0.997).outcome(), Holds);
         assert_eq!(published(0.995).outcome(), Differs);
+        assert_eq!(two_layers(0.9991).outcome(), Holds);
+        assert_eq!(two_layers(0.9989).outcome(), Differs);
         assert_eq!(right(0.9991).outcome(), Holds);
         assert_eq!(right(0.9989).outcome(), Differs);
         assert_eq!(smaller(0.998, 0.9976).outcome(), Holds);
