@@ -125,7 +125,8 @@ pub struct About {
 ///
 /// Functions that composition writes beside it, and that every function may call, read what is set at run
 /// time: `x_NAME() -> f32` for each of [`Description::uniforms`], `x_NAME(view: u32) -> f32` for each of
-/// [`Description::widths`], and what comes with [`Description::blur`] and with what is kept of
+/// [`Description::widths`], in the comparison family `uphill_lean(view: u32) -> vec2f`, the depth that a plane at right
+/// angles to parallel light gains per unit of `uv`, and what comes with [`Description::blur`] and with what is kept of
 /// casters ([`CasterStorage`]). If there are [classes](Description::classes) it also defines `x_class`, with
 /// the same parameters. The first line may be `//! needs a b`: shared files, and slots that
 /// [`Description::slots`] fill. What is compared with the casters' own depth goes through `stored_depth` (needs

@@ -7,6 +7,7 @@ mod axes;
 mod cascade;
 mod directional;
 mod fit;
+mod slab;
 mod spot;
 mod view;
 

@@ -147,11 +147,11 @@ fn misuse_is_told(gpu: &Gpu) {
     // A technique that compares the depth as it comes.
     let careless = Broken::saying(
         "hard",
-        "let reference = reference_depth(depth, dot(plane, centre - uv));",
+        "let reference = uphill_depth(depth, plane, uphill_lean(view), centre - uv);",
         "let reference = depth;",
     );
     let careless = careless.with(|described| {
-        described.wgsl = described.wgsl.replace("//! needs reference", "").into();
+        described.wgsl = described.wgsl.replace("//! needs uphill", "").into();
         described.slots.clear();
         described.constants.clear();
     });
@@ -199,10 +199,42 @@ fn warped_depth_is_the_same_depth(gpu: &Gpu) {
     }
 }
 
+/// Comparisons do not notice that depth leans where the view says so.
+fn leaning_depth_is_the_same_depth(gpu: &Gpu) {
+    let plain = depth_layers(gpu, SIZE, 1, |_, x, y| block(x, y));
+    let fours =
+        ["pcf.taps=bilinear", "pcf.taps=gather", "pcf.taps=merged", "bicubic", "footprint", "poisson"];
+    let ones = ["hard", "hard.precision=16", "packed", "pcf.taps=nearest", "pcf.taps=nearest,precision=16"];
+    // Four texels that are compared together are so with the least depth of them: a lean as gentle as their steps.
+    for (specs, lean) in [(&fours[..], 0.002f32), (&ones, 0.2)] {
+        let row = Vec4::new(lean, -0.5 * lean, 0.3, 0.35);
+        let view = View {
+            clip_from_world: Mat4::from_cols(Vec4::X, Vec4::Y, row, Vec4::W).transpose(),
+            depth_plane: row,
+            depth_world: 1.0 / 0.3,
+            ..view(SIZE)
+        };
+        let centre = |x: u32| 2.0 * (x as f32 + 0.5) / SIZE.width as f32 - 1.0;
+        let leaning =
+            depth_layers(gpu, SIZE, 1, |_, x, y| row.dot(Vec4::new(centre(x), -centre(y), block(x, y), 1.0)));
+        for spec in specs {
+            let technique = technique::parse(spec).unwrap();
+            let expected = answers(gpu, technique.as_ref(), Depth::new(&plain), common::view(SIZE));
+            let found = answers(gpu, technique.as_ref(), Depth::new(&leaning), view);
+            assert!(apart(&expected, &found) < 1e-3, "{spec}: {}", apart(&expected, &found));
+        }
+        let unaware = Broken::saying("hard", "uphill_lean(view)", "vec2f(0.0)");
+        let expected = answers(gpu, &unaware, Depth::new(&plain), common::view(SIZE));
+        let found = answers(gpu, &unaware, Depth::new(&leaning), view);
+        assert!(lean < 0.1 || apart(&expected, &found) > 0.03, "negative control");
+    }
+}
+
 fn main() {
     let mut trials = Trials::default();
     trials.add("reversed_depth_is_the_same_depth", reversed_depth_is_the_same_depth);
     trials.add("warped_depth_is_the_same_depth", warped_depth_is_the_same_depth);
+    trials.add("leaning_depth_is_the_same_depth", leaning_depth_is_the_same_depth);
     trials.add("few_bits_are_allowed_for", few_bits_are_allowed_for);
     trials.add("misuse_is_told", misuse_is_told);
     trials.run();

@@ -2,16 +2,17 @@
 //!
 //! Across, a view covers the overlap of casters and receivers with a margin for penumbrae; in depth the receivers
 //! and, if casters are there, a tenth more towards the light: casters still nearer to it are to be clamped or
-//! pancaked onto the near plane. Texels are square; their world size comes in steps of 2^(1/16) and the map moves in
+//! pancaked onto the near plane. Planes of equal depth lean so that the range is the least. Texels are square; their world size comes in steps of 2^(1/16) and the map moves in
 //! whole texels, so that a moving camera does not make edges crawl.
 
 use super::{
     Fit, View,
     axes::{Axes, from_rows},
     fit::extent,
+    slab,
 };
 use crate::{camera::TINY, error::LightError};
-use glam::{DVec4, Vec3, Vec4};
+use glam::{DVec3, DVec4, Vec3, Vec4};
 
 /// The next world size of a texel, in steps of 2^(1/16), that is not smaller.
 fn stepped(texel: f64) -> f64 {
@@ -31,6 +32,13 @@ fn overlap(receivers: [f64; 2], casters: [f64; 2]) -> ([f64; 2], [f64; 2]) {
 
 /// How far in front of the nearest receiver casters are kept apart, in depth ranges of the receivers.
 const APART: f64 = 0.1;
+
+/// The same in texels, more than biases take off receivers' depth: where the range is that of a flat floor, they
+/// would bring it in front of what casts onto it. Steep receivers take 4 texels, and those that follow their plane 1.5
+/// more for each texel of a kernel.
+fn apart_texels(margin: f64) -> f64 {
+    4.0 + 1.5 * margin
+}
 
 /// The view of a sun.
 ///
@@ -60,11 +68,22 @@ pub(super) fn view(direction: Vec3, fit: &Fit) -> Result<View, LightError> {
     // In depth: the receivers, with a little room for rounding. Casters farther out lose their depth
     // on the near plane; kept at a distance there, they stay well apart from the nearest receivers
     // for techniques that fall off gradually behind a caster.
-    let range = (high.z - low.z).max(span);
-    let near = caster_low.z.max(low.z - APART * range).min(low.z) - 1e-3 * range;
-    let far = high.z + 1e-3 * range;
+    let lean = slab::lean(fit.receivers.iter().map(|p| axes.of(p.as_dvec3()))).extend(1.0);
+    let ends = |points: &mut dyn Iterator<Item = Vec3>| {
+        points.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], p| {
+            let depth = axes.of(p.as_dvec3()).dot(lean);
+            [low.min(depth), high.max(depth)]
+        })
+    };
+    let [caster_low, _] = ends(&mut fit.casters.corners());
+    let [low, high] = ends(&mut fit.receivers.iter().copied());
+    let range = (high - low).max(span);
+    let apart = (APART * range).max(apart_texels(margin) * texel);
+    let near = caster_low.max(low - apart).min(low) - 1e-3 * range;
+    let far = high + 1e-3 * range;
     let (sx, sy, sz) = (2.0 / (texel * across), 2.0 / (texel * down), 1.0 / (far - near));
-    let depth = Axes::row(axes.along, sz, -near * sz);
+    let leaning: DVec3 = lean.x * axes.right + lean.y * axes.up + axes.along;
+    let depth = Axes::row(leaning, sz, -near * sz);
     Ok(View {
         clip_from_world: from_rows(
             Axes::row(axes.right, sx, -cx * sx),

@@ -70,10 +70,15 @@ fn texels_are_as_small_as_the_visible_part_allows() {
 fn casters_beyond_the_near_plane_stay_apart_from_receivers() {
     let light = sun(0.0, -1.0, 0.0);
     let floor = Bounds { min: Vec3::new(-9.0, 0.0, -9.0), max: Vec3::new(9.0, 1.0, 9.0) };
-    let view = light.view(&fit(floor.corners().collect())).unwrap();
+    let fine = Fit { size: Size::square(4096), ..fit(floor.corners().collect()) };
+    let view = light.view(&fine).unwrap();
     let depth = |y: f32| project(&view, Vec3::new(0.0, y, 0.0)).z;
     assert!(depth(5.0) < 0.0, "the roof is clamped");
     assert!((0.09..0.1).contains(&depth(1.0)), "{}", depth(1.0));
+    // A tenth of the range is fewer texels of a coarse map than biases may take.
+    let coarse = light.view(&fit(floor.corners().collect())).unwrap();
+    let apart = project(&coarse, Vec3::Y).z * coarse.depth_world / coarse.texel_world;
+    assert!((10.0..10.1).contains(&apart), "{apart}");
     // Without such casters the range is the receivers' own.
     let low = Fit { casters: floor, ..fit(floor.corners().collect()) };
     let view = light.view(&low).unwrap();
@@ -154,4 +159,29 @@ fn penumbrae_beyond_the_casters_are_inside_too() {
     let alone = Fit { receivers: casters.corners().collect(), ..fit };
     let tight = sun(0.0, -1.0, 0.0).view(&alone).unwrap();
     assert!(tight.texel_world < view.texel_world, "receivers that end with the casters need no more room");
+}
+
+#[test]
+fn depth_leans_until_its_range_is_as_long_as_a_ray_in_the_scene() {
+    for light in [sun(1.0, -1.0, 0.0), sun(0.3, -1.0, 0.2), sun(-2.0, -1.0, 1.0)] {
+        let fit = Fit { size: Size::square(4096), ..fit(BOX.corners().collect()) };
+        let view = light.view(&fit).unwrap();
+        let along = -view.to_light.truncate();
+        // From the ceiling to the floor, 5 below.
+        let longest = 5.0 / -along.y;
+        assert!((view.depth_world / longest - 1.0).abs() < 5e-3, "{} for {longest}", view.depth_world);
+        // Along the light depth grows by one in a range, whatever it does across.
+        let step = along * view.depth_world;
+        assert!((view.depth_plane.truncate().dot(step) - 1.0).abs() < 1e-5);
+        let across = view.clip_from_world.transform_vector3(step);
+        assert!(across.truncate().length() < 1e-5 && (across.z - 1.0).abs() < 1e-5, "{across}");
+        // What it does across is said per unit of texture coordinate.
+        let world = |x, y| view.clip_from_world.inverse().project_point3(Vec3::new(x, y, 0.3));
+        let level = |p: Vec3| p - along * along.dot(p - world(0.0, 0.0));
+        let gain = |x, y| view.depth_plane.dot(level(world(x, y)).extend(1.0)) - 0.3;
+        assert!(
+            (gain(2.0, 0.0) - view.lean().x).abs() < 1e-4 && (gain(0.0, -2.0) - view.lean().y).abs() < 1e-4
+        );
+        assert!(view.lean().length() > 0.1 && !view.is_warped());
+    }
 }

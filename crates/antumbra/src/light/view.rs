@@ -12,7 +12,8 @@ use glam::{DVec3, DVec4, Mat4, Vec2, Vec3, Vec4};
 pub struct View {
     /// World to clip space: x, y in `[−1,1]` (y up), z in `[0,1]` from near to far, or from far to near.
     pub clip_from_world: Mat4,
-    /// Linear depth in `[0,1]` of a world point p is `dot(depth_plane, (p, 1))`.
+    /// Linear depth in `[0,1]` of a world point p is `dot(depth_plane, (p, 1))`. Under parallel light planes of equal
+    /// depth may lean: only along the light does depth have to grow evenly.
     pub depth_plane: Vec4,
     /// Rows a and b that make depth linear: a point with clip coordinates c = (x, y, z, 1), divided by w, has
     /// linear depth `dot(a, c) / dot(b, c)`. They hold for any projection, reversed, infinite or warped.
@@ -22,7 +23,7 @@ pub struct View {
     /// World size of a texel where the clip coordinate w is 1; elsewhere that times w, which is 1 everywhere
     /// under parallel light.
     pub texel_world: f32,
-    /// World length of the depth range `[0,1]`.
+    /// World length of the depth range `[0,1]` along the light, or along a spot's axis.
     pub depth_world: f32,
 }
 
@@ -103,6 +104,17 @@ impl View {
     #[must_use]
     pub fn is_warped(&self) -> bool {
         self.linear_from_clip.iter().any(|row| row.x != 0.0 || row.y != 0.0)
+    }
+
+    /// What linear depth gains per unit of texture coordinate on a plane at right angles to parallel light; 0 under
+    /// other light.
+    pub(crate) fn lean(&self) -> Vec2 {
+        if self.is_perspective() {
+            return Vec2::ZERO;
+        }
+        let (x, y) = (self.clip_from_world.row(0).truncate(), self.clip_from_world.row(1).truncate());
+        let gain = |row: Vec3| 2.0 * self.depth_plane.truncate().dot(row) / row.length_squared();
+        Vec2::new(gain(x), -gain(y))
     }
 
     /// Whether depth as rasterised falls with the distance from the light.

@@ -23,6 +23,9 @@ struct ShadowView {
     reach_x: f32,
     reach_y: f32,
     layer: u32,
+    depth_per_world: f32,
+    lean_x: f32,
+    lean_y: f32,
 }
 
 /// Without what follows it.
@@ -257,6 +260,9 @@ fn view_bytes_of<'a>(
             reach_x: reach(tile_numbers[2]),
             reach_y: reach(tile_numbers[3]),
             layer: tile.layer,
+            depth_per_world: 1.0 / v.depth_world,
+            lean_x: v.lean().x,
+            lean_y: v.lean().y,
         };
         bytes.extend_from_slice(bytemuck::bytes_of(&view));
         extend(bytes, per_view.at(view.texel_world));

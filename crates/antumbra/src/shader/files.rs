@@ -48,6 +48,7 @@ pub(super) const FILES: &[(&str, &str)] = &[
     ("taps_weights", include_str!("taps/weights.wgsl")),
     ("tile_placed", include_str!("tile/placed.wgsl")),
     ("tile_whole", include_str!("tile/whole.wgsl")),
+    ("uphill", include_str!("uphill.wgsl")),
     ("words_1", include_str!("words/1.wgsl")),
     ("words_2", include_str!("words/2.wgsl")),
     ("words_4", include_str!("words/4.wgsl")),

@@ -54,10 +54,11 @@ impl Composition {
         };
         // Other families do not compare texels one by one: what they do with the plane is no bias.
         let followed = match description.about.family {
-            Family::Comparison => "receiver_followed(plane, shadow.receiver_plane, diagonal)",
-            Family::Basis | Family::Geometry => "plane",
+            Family::Comparison => "receiver_followed(own, shadow.receiver_plane, diagonal)",
+            Family::Basis | Family::Geometry => "own",
         };
-        let call = format!("{name}_{kind}({arguments}uv, view, depth, {followed}, gradient_x, gradient_y)");
+        let call =
+            format!("{name}_{kind}({arguments}uv, view, depth, {followed} + lean, gradient_x, gradient_y)");
         include_str!("visibility.wgsl.in")
             .replace("{which}", if *lights > 1 { "light: u32, " } else { "" })
             .replace("{range}", &range(*lights))
@@ -86,7 +87,7 @@ fn uniforms(description: &Description, [views, lights]: [u32; 2], (group, first)
     let once: String = settings::once(description).map(|name| format!("    {name}: f32,\n")).collect();
     let ranges = if lights > 1 { format!(" lights: array<vec4u, {lights}>,") } else { String::new() };
     format!(
-        "struct ShadowView {{ clip_from_world: mat4x4f, depth_plane: vec4f, to_light: vec4f, linear_over: vec4f, linear_under: vec4f, tile: vec4f, texel_world: f32, reach_x: f32, reach_y: f32, layer: u32{per_view} }}\n\
+        "struct ShadowView {{ clip_from_world: mat4x4f, depth_plane: vec4f, to_light: vec4f, linear_over: vec4f, linear_under: vec4f, tile: vec4f, texel_world: f32, reach_x: f32, reach_y: f32, layer: u32, depth_per_world: f32, lean_x: f32, lean_y: f32{per_view} }}\n\
          struct ShadowUniforms {{\n    views: array<ShadowView, {views}>,{ranges}\n    view_count: u32, width: f32, height: f32,\n    constant_texels: f32, slope_texels: f32, normal_offset_texels: f32, grazing_offset_texels: f32,\n    receiver_plane: f32, constant_depth: f32, float_steps: f32,\n{once}}}\n\
          @group({group}) @binding({first}) var<uniform> shadow: ShadowUniforms;\n"
     )

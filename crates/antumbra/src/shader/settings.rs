@@ -1,7 +1,7 @@
 //! The settings of a technique in WGSL: members of uniform structs, and the functions that read them.
 
 use super::Composition;
-use crate::describe::Description;
+use crate::describe::{Description, Family};
 
 /// Where a text finds the settings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -26,7 +26,8 @@ pub(crate) fn per_view(description: &Description) -> impl Iterator<Item = String
 }
 
 /// The functions through which the WGSL of a technique named `x` reads them: `x_setting() -> f32`,
-/// `x_width(view: u32) -> f32` and `shadow_blur(view: u32) -> f32`. And those that the files of the slot `tile` call.
+/// `x_width(view: u32) -> f32` and `shadow_blur(view: u32) -> f32`. And those that `uphill` and the
+/// files of the slot `tile` call.
 pub(crate) fn accessors(composition: &Composition, reader: Reader) -> String {
     let Composition { description, .. } = composition;
     let technique = description.about.name;
@@ -50,7 +51,17 @@ pub(crate) fn accessors(composition: &Composition, reader: Reader) -> String {
             };
             format!("fn {name}(view: u32) -> f32 {{ return {read}; }}\n")
         });
-    once.chain(per_view).chain([places(reader, composition.tiled)]).collect()
+    once.chain(per_view).chain([places(reader, composition.tiled)]).chain(lean(description, reader)).collect()
+}
+
+/// How depth leans in a view, which comparisons ask for.
+fn lean(description: &Description, reader: Reader) -> Option<String> {
+    let read = match reader {
+        Reader::Receiver => "vec2f(shadow.views[view].lean_x, shadow.views[view].lean_y)",
+        Reader::Convert | Reader::Alone => "vec2f(0.0)",
+    };
+    let lean = format!("fn uphill_lean(view: u32) -> vec2f {{ return {read}; }}\n");
+    (description.about.family == Family::Comparison).then_some(lean)
 }
 
 /// `shadow_size() -> vec2f`, texels of a layer; where views may be parts of one `shadow_place(view: u32) -> vec4f`, origin

@@ -1,4 +1,4 @@
-//! needs reference tile
+//! needs uphill tile
 
 /// Weights of the four texels along one axis, the second of which lies `f` texels before the receiver:
 /// the uniform cubic B-spline.
@@ -22,13 +22,14 @@ fn bicubic_visibility(casters: texture_depth_2d_array, compare: sampler_comparis
     let weight_y = y.xz + y.yw;
     let at_x = x.yw / weight_x;
     let at_y = y.yw / weight_y;
+    let lean = uphill_lean(view);
     var lit = 0.0;
     for (var row = 0u; row < 2u; row += 1u) {
         for (var column = 0u; column < 2u; column += 1u) {
             let low = first + 2.0 * vec2f(f32(column), f32(row));
             let point = (low + vec2f(at_x[column], at_y[row])) / size;
-            let gain = dot(plane, (low + 0.5) / size - uv) - 0.5 * dot(abs(plane), 1.0 / size);
-            lit += weight_x[column] * weight_y[row] * textureSampleCompareLevel(casters, compare, tile_uv(view, point), tile_layer(view), reference_depth(depth, gain));
+            let reference = uphill_four(depth, plane, lean, (low + 0.5) / size - uv, 1.0 / size);
+            lit += weight_x[column] * weight_y[row] * textureSampleCompareLevel(casters, compare, tile_uv(view, point), tile_layer(view), reference);
         }
     }
     // Floats that sum to one may exceed it by some roundings.

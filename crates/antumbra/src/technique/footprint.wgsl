@@ -1,4 +1,4 @@
-//! needs reference tile
+//! needs uphill tile
 
 /// Most lookups.
 const footprint_budget: u32 = 16;
@@ -19,14 +19,14 @@ fn footprint_counts(texels: vec2f) -> vec2f {
 fn footprint_visibility(casters: texture_depth_2d_array, compare: sampler_comparison, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f) -> f32 {
     let size = tile_size(view);
     let counts = footprint_counts(vec2f(length(ddx * size), length(ddy * size)));
-    let half_gain = 0.5 * dot(abs(plane), 1.0 / size);
+    let lean = uphill_lean(view);
     var lit = 0.0;
     for (var j = 0.5; j < counts.y; j += 1.0) {
         for (var i = 0.5; i < counts.x; i += 1.0) {
             let place = uv + (i / counts.x - 0.5) * ddx + (j / counts.y - 0.5) * ddy;
             // Where the four texels of the lookup meet.
             let corner = (floor(place * size - 0.5) + 1.0) / size;
-            let reference = reference_depth(depth, dot(plane, corner - uv) - half_gain);
+            let reference = uphill_four(depth, plane, lean, corner - uv, 1.0 / size);
             lit += textureSampleCompareLevel(casters, compare, tile_uv(view, place), tile_layer(view), reference);
         }
     }

@@ -1,4 +1,4 @@
-//! needs reference tile
+//! needs uphill tile
 
 /// Phases along one side: one for a footprint of 2×2 texels, two for one of 4×4.
 const packed_phases: u32 = 1;
@@ -11,15 +11,15 @@ fn packed_encode(depths: mat3x3f, layer: u32) -> vec4f {
     return vec4f(depths[0][2], depths[1][2], depths[0][1], depths[1][1]);
 }
 
-/// What the four depths that the receiver is behind add up to: their share, or in 8 bits 64 each and 63 in
-/// alpha, so that all of them make 255 [footnote 2]. `gain` is the depth that its plane gains to the
-/// middle of the four, `half_texel` what it gains over half a texel in x and in y.
-fn packed_shadow(four: vec4f, depth: f32, gain: f32, half_texel: vec2f) -> f32 {
+/// What the four depths that the receiver is behind, whose middle lies at `offset` from it, add up to: their share, or
+/// in 8 bits 64 each and 63 in alpha, so that all of them make 255 [footnote 2].
+fn packed_shadow(four: vec4f, depth: f32, plane: vec2f, lean: vec2f, offset: vec2f, half_texel: vec2f) -> f32 {
     // Lower left, lower right, upper left, upper right.
-    let gains = gain + half_texel.x * vec4f(-1.0, 1.0, -1.0, 1.0) + half_texel.y * vec4f(1.0, 1.0, -1.0, -1.0);
     let references = vec4f(
-        reference_depth(depth, gains.x), reference_depth(depth, gains.y),
-        reference_depth(depth, gains.z), reference_depth(depth, gains.w),
+        uphill_depth(depth, plane, lean, offset + half_texel * vec2f(-1.0, 1.0)),
+        uphill_depth(depth, plane, lean, offset + half_texel),
+        uphill_depth(depth, plane, lean, offset - half_texel),
+        uphill_depth(depth, plane, lean, offset + half_texel * vec2f(1.0, -1.0)),
     );
     let weights = select(vec4f(0.25), vec4f(64.0, 64.0, 64.0, 63.0), packed_in_bytes == 1u);
     return dot(select(weights, vec4f(0.0), references <= four), vec4f(1.0));
@@ -36,13 +36,14 @@ fn packed_returned(mean: f32) -> f32 {
 fn packed_visibility(packed: texture_2d_array<f32>, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f) -> f32 {
     let texel = 1.0 / tile_size(view);
     let middle = floor(uv / texel + vec2f(0.5, -0.5));
+    let lean = uphill_lean(view);
     var sum = 0.0;
     for (var row = 0u; row < packed_phases; row += 1u) {
         for (var column = 0u; column < packed_phases; column += 1u) {
             let phase = middle + 2.0 * vec2f(f32(column), f32(row)) - f32(packed_phases - 1u);
             let four = textureLoad(packed, tile_texel(view, vec2i(phase)), tile_layer(view), 0);
-            let gain = dot(plane, (phase + vec2f(0.0, 1.0)) * texel - uv);
-            sum += packed_shadow(four, depth, gain, 0.5 * plane * texel);
+            let offset = (phase + vec2f(0.0, 1.0)) * texel - uv;
+            sum += packed_shadow(four, depth, plane, lean, offset, 0.5 * texel);
         }
     }
     let mean = sum / f32(packed_phases * packed_phases);

@@ -1,4 +1,4 @@
-//! needs reference spin tile
+//! needs uphill spin tile
 
 /// Number of lookups.
 const poisson_points: u32 = 16;
@@ -14,14 +14,14 @@ fn poisson_visibility(casters: texture_depth_2d_array, compare: sampler_comparis
     let turn = 0.5 * poisson_diameter(view) * spin_rotation(uv, ddx, ddy);
     let centre = vec2f(poisson_centre[0], poisson_centre[1]);
     let origin = uv / texel - vec2f(turn.x * centre.x - turn.y * centre.y, turn.y * centre.x + turn.x * centre.y);
-    let half_gain = 0.5 * dot(abs(plane), texel);
+    let lean = uphill_lean(view);
     var direction = turn;
     var lit = 0.0;
     for (var i = 0u; i < poisson_points; i += 1u) {
         let place = origin + sqrt((f32(i) + 0.5) / f32(poisson_points)) * direction;
         // Where the four texels of the lookup meet.
         let corner = (floor(place - 0.5) + 1.0) * texel;
-        let reference = reference_depth(depth, dot(plane, corner - uv) - half_gain);
+        let reference = uphill_four(depth, plane, lean, corner - uv, texel);
         lit += textureSampleCompareLevel(casters, compare, tile_uv(view, place * texel), tile_layer(view), reference);
         direction = mat2x2f(poisson_golden, vec2f(-poisson_golden.y, poisson_golden.x)) * direction;
     }

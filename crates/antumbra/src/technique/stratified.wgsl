@@ -1,4 +1,4 @@
-//! needs reference tile
+//! needs uphill tile
 
 /// Samples along one side of a texel.
 const stratified_grid: u32 = 2;
@@ -29,16 +29,18 @@ fn stratified_visibility(samples: texture_2d_array<f32>, uv: vec2f, view: u32, d
     let size = tile_size(view);
     let texel = clamp(floor(uv * size), vec2f(0.0), size - 1.0);
     let n = f32(stratified_grid);
-    // Of the first sample, and of a step to the next.
-    let step = plane / (n * size);
-    let gain = dot(plane, texel / size - uv) + 0.5 * (step.x + step.y);
+    // To the texel's corner, and from each sample to the next.
+    let corner = texel / size - uv;
+    let step = 1.0 / (n * size);
+    let lean = uphill_lean(view);
     var lit = 0.0;
     for (var layer = 0u; layer < LAYERS; layer += 1u) {
         let four = textureLoad(samples, tile_texel(view, vec2i(texel)), tile_layer(view) * LAYERS + layer, 0);
         for (var channel = 0u; channel < 4u; channel += 1u) {
             let k = 4u * layer + channel;
-            let here = gain + f32(k % stratified_grid) * step.x + f32(k / stratified_grid) * step.y + dot(step, stratified_jitter(k));
-            lit += select(0.0, 1.0, k < COUNT && reference_depth(depth, here) <= four[channel]);
+            let cell = vec2f(f32(k % stratified_grid), f32(k / stratified_grid)) + 0.5;
+            let sample = corner + (cell + stratified_jitter(k)) * step;
+            lit += select(0.0, 1.0, k < COUNT && uphill_depth(depth, plane, lean, sample) <= four[channel]);
         }
     }
     // Some divisions round n / n up.

@@ -42,6 +42,9 @@ fn rust_view(description: &Description) -> Layout {
         row!(reach_x),
         row!(reach_y),
         row!(layer),
+        row!(depth_per_world),
+        row!(lean_x),
+        row!(lean_y),
     ];
     let base = VIEW_BYTES as u32;
     rows.extend((0..).zip(settings::per_view(description)).map(|(i, name)| (name, base + 4 * i, 4)));
@@ -127,7 +130,7 @@ fn what_is_written_lies_where_the_shader_reads_it() {
     let view = View {
         clip_from_world: glam::Mat4::from_cols_array(&std::array::from_fn(|i| i as f32)),
         depth_plane: glam::Vec4::new(20.0, 21.0, 22.0, 23.0),
-        to_light: glam::Vec4::new(24.0, 25.0, 26.0, 27.0),
+        to_light: glam::Vec4::new(24.0, 25.0, 26.0, 0.0),
         texel_world: 28.0,
         linear_from_clip: [[31.0, 32.0, 33.0, 34.0], [0.0, 0.0, 0.0, 1.0]].map(glam::Vec4::from_array),
         depth_world: 30.0,
@@ -195,7 +198,9 @@ fn second_view(spec: &str, description: &Description, module: &naga::Module, byt
         "poisson" => vec![31.0],
         _ => Vec::new(),
     };
-    let expected = [vec![28.0, 0.25, 0.125, f32::from_bits(3)], further].concat();
+    // Twice (20, 21, 22) · row / row² of the matrix's rows (0, 4, 8) and (1, 5, 9), y down.
+    let lean = [2.0 * 260.0 / 80.0, -2.0 * 323.0 / 107.0];
+    let expected = [vec![28.0, 0.25, 0.125, f32::from_bits(3), 1.0 / 30.0], lean.to_vec(), further].concat();
     assert_eq!(tail.len(), expected.len(), "{spec}");
     assert!(tail.iter().zip(&expected).all(|(f, e)| (f - e).abs() < 1e-6), "{spec}: {tail:?}");
     assert!(bytes[2 * base as usize..3 * base as usize].iter().all(|b| *b == 0));

@@ -1,4 +1,4 @@
-//! needs reference taps_weights tile
+//! needs uphill taps_weights tile
 
 /// The sum of n×n bilinear taps in ⌈(n+1)/2⌉² bilinear lookups. The taps cover n + 1 texels along each
 /// axis; a lookup between two of them, at the fraction b/(a + b) and with the weight a + b, gives the
@@ -8,8 +8,9 @@ fn taps_lit(casters: texture_depth_2d_array, compare: sampler_comparison, uv: ve
     let first = uv / texel - 0.5 * f32(taps_width);
     let low = floor(first);
     let fraction = first - low;
-    // From the receiver to where the first four texels meet, and the gain to the highest of them.
-    let gain = dot(plane, (low + 1.0) * texel - uv) - 0.5 * dot(abs(plane), texel);
+    // From the receiver to where the first four texels meet.
+    let corner = (low + 1.0) * texel - uv;
+    let lean = uphill_lean(view);
     var lit = 0.0;
     for (var j = 0u; j < taps_pairs; j += 1u) {
         let y = taps_pair(2.0 * f32(j), fraction.y);
@@ -19,7 +20,7 @@ fn taps_lit(casters: texture_depth_2d_array, compare: sampler_comparison, uv: ve
             let x = taps_pair(2.0 * f32(i), fraction.x);
             let across = x.x + x.y;
             let place_x = (low.x + 0.5 + 2.0 * f32(i) + x.y / max(across, 1e-30)) * texel.x;
-            let reference = reference_depth(depth, gain + dot(plane, 2.0 * vec2f(f32(i), f32(j)) * texel));
+            let reference = uphill_four(depth, plane, lean, corner + 2.0 * vec2f(f32(i), f32(j)) * texel, texel);
             lit += across * down * textureSampleCompareLevel(casters, compare, tile_uv(view, vec2f(place_x, place_y)), tile_layer(view), reference);
         }
     }
