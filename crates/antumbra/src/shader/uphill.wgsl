@@ -8,9 +8,9 @@ fn uphill_depth(depth: f32, plane: vec2f, lean: vec2f, offset: vec2f) -> f32 {
 }
 
 /// The same for the four texels around the corner at `offset`: all are compared with one depth, in front of the plane
-/// at any of them.
+/// at any of them, and by as much as if depth did not lean.
 fn uphill_four(depth: f32, plane: vec2f, lean: vec2f, offset: vec2f, texel: vec2f) -> f32 {
-    let highest = dot(plane, offset) - 0.5 * dot(abs(plane), texel);
-    let level = dot(lean, offset);
+    let level = dot(lean, offset) - 0.5 * dot(abs(lean), texel);
+    let highest = dot(plane, offset) - 0.5 * max(dot(abs(plane), texel), dot(abs(plane - lean), texel));
     return reference_depth(depth + level, highest - level);
 }
