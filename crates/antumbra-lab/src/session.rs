@@ -28,6 +28,8 @@ pub struct Session<'g> {
     /// Made when the first picture is asked for.
     pictures: OnceCell<Pictures>,
     prepared: Vec<Prepared>,
+    /// As the first techniques have them, without a lean.
+    views: Vec<View>,
     left_out: Vec<LeftOut>,
 }
 
@@ -79,6 +81,7 @@ impl<'g> Session<'g> {
             scene,
             pictures: OnceCell::new(),
             prepared: Vec::new(),
+            views: Vec::new(),
             left_out: Vec::new(),
         };
         session.draw_surfaces()?;
@@ -111,8 +114,10 @@ impl<'g> Session<'g> {
             return Err(Refused(left_out).into());
         }
         self.left_out.extend(left_out);
-        let views = self.fit(first)?;
-        self.set_views(first, &views)?;
+        let views = self.set_views(first)?;
+        if first == 0 {
+            self.views = views;
+        }
         let ids = |prepared: &&mut Prepared| prepared.shadows.description().storage.keeps_ids();
         for prepared in self.prepared[first..].iter_mut().filter(ids) {
             prepared.draw_maps(self.gpu, &self.scene)?;
@@ -120,18 +125,21 @@ impl<'g> Session<'g> {
         Ok(())
     }
 
-    /// The light's views for the shot's camera and the maps from `first` on.
-    fn fit(&self, first: usize) -> Result<Vec<View>> {
+    /// Gives the light's views for the shot's camera to the maps from `first` on, and returns those that do not lean.
+    fn set_views(&mut self, first: usize) -> Result<Vec<View>> {
         let Shot { geometry, camera, light, .. } = &self.shot;
         let matrix = self.scene.camera_matrix_of(geometry, camera, light);
         let maps: Vec<&ShadowMap> = self.prepared[first..].iter().map(|p| &p.shadows).collect();
-        if maps.is_empty() { Ok(Vec::new()) } else { self.shot.views(matrix, &maps) }
-    }
-
-    /// Gives the light's views to the maps from `first` on.
-    fn set_views(&mut self, first: usize, views: &[View]) -> Result<()> {
-        let mut prepared = self.prepared[first..].iter_mut();
-        prepared.try_for_each(|prepared| prepared.set_views(self.gpu, &self.scene, views))
+        if maps.is_empty() {
+            return Ok(Vec::new());
+        }
+        let fit = |lean| self.shot.views(matrix, &maps, lean);
+        let (level, leaning) = (fit(false)?, fit(true)?);
+        for prepared in &mut self.prepared[first..] {
+            let views = if prepared.shadows.leans() { &leaning } else { &level };
+            prepared.set_views(self.gpu, &self.scene, views)?;
+        }
+        Ok(level)
     }
 
     /// Moves the maps to another camera and light, and draws them. Surfaces stay where they are until
@@ -141,8 +149,7 @@ impl<'g> Session<'g> {
     /// As [`prepare`](Self::prepare).
     pub fn draw_maps(&mut self, camera: &Camera, light: &Light) -> Result<()> {
         (self.shot.camera, self.shot.light) = (*camera, *light);
-        let views = self.fit(0)?;
-        self.set_views(0, &views)?;
+        self.views = self.set_views(0)?;
         for prepared in &mut self.prepared {
             let drawn = prepared.draw_maps(self.gpu, &self.scene);
             drawn.with_context(|| technique::spec(prepared.shadows.technique()))?;
@@ -216,10 +223,11 @@ impl<'g> Session<'g> {
         }));
     }
 
-    /// The light's views, the same for all techniques that were prepared together; none without a technique.
+    /// The light's views, the same for all techniques that were prepared together, but for those whose depth leans;
+    /// none without a technique.
     #[must_use]
     pub fn views(&self) -> &[View] {
-        self.prepared.first().map_or(&[], |prepared| prepared.shadows.views())
+        &self.views
     }
 
     /// Visibility of every pixel as a technique answers: draws its maps and asks them.

@@ -52,14 +52,14 @@ impl Shot {
         Ok(GpuScene::new(gpu, &self.geometry, &self.camera, &self.light, self.resolution)?)
     }
 
-    /// The light's views for a camera's matrix, with the margin of the widest kernel.
+    /// The light's views for a camera's matrix, with the margin of the widest kernel; their depth leans or not.
     ///
     /// # Errors
     /// [`antumbra::LightError`], an empty scene.
-    pub fn views(&self, camera: Mat4, maps: &[&ShadowMap]) -> Result<Vec<View>> {
+    pub fn views(&self, camera: Mat4, maps: &[&ShadowMap], lean: bool) -> Result<Vec<View>> {
         let scene =
             self.geometry.bounds_around(self.camera.position).context("the scene has no triangles")?;
-        Ok(views::fit(camera, scene, &self.light, self.cascades, maps)?)
+        Ok(views::fit(camera, scene, &self.light, self.cascades, maps, lean)?)
     }
 
     /// Largest number of views that the light can have: one per cascade, one of a spot.

@@ -22,7 +22,7 @@
 //! let options = Options::from(Size::square(1024)).capacity(scene.capacity()).cutouts(scene.tells_cutouts());
 //! let mut shadows = ShadowMap::new(&gpu.device, &Esm::default(), options)?;
 //! let bounds = geometry.bounds_around(camera.position).ok_or("no triangles")?;
-//! let views = views::fit(scene.camera_matrix(), bounds, &light, 1, &[&shadows])?;
+//! let views = views::fit(scene.camera_matrix(), bounds, &light, 1, &[&shadows], shadows.leans())?;
 //! shadows.prepare(&gpu.queue, &views)?;
 //!
 //! let casters = Casters::new(&gpu, &scene, &shadows)?;

@@ -20,7 +20,8 @@ pub fn library_light(light: &Light) -> antumbra::Light {
 }
 
 /// The views of a light for a camera's matrix and a scene's box, nearest first: `cascades` of a sun where
-/// the camera sees something in each, one of a spot. The margin is that of the widest kernel of `maps`.
+/// the camera sees something in each, one of a spot. The margin is that of the widest kernel of `maps`; `lean` is
+/// [`antumbra::Fit::lean`].
 ///
 /// # Errors
 /// No map; a light or camera without a view.
@@ -30,12 +31,14 @@ pub fn fit(
     light: &Light,
     cascades: u32,
     maps: &[&ShadowMap],
+    lean: bool,
 ) -> Result<Vec<View>, RenderError> {
     let fit = antumbra::CameraFit {
         camera,
         scene: Bounds { min: scene.min, max: scene.max },
         size: maps.first().ok_or(RenderError::NoMap)?.size(),
         margin_texels: maps.iter().map(|s| s.margin_texels()).fold(1.0, f32::max),
+        lean,
     };
     Ok(library_light(light).views(&fit, Cascades::new(cascades))?)
 }

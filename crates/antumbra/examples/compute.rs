@@ -55,6 +55,7 @@ pub fn run(device: &wgpu::Device, queue: &wgpu::Queue) -> Result<Vec<u8>, Box<dy
         receivers: scene.corners().collect(),
         size: shadows.size(),
         margin_texels: shadows.margin_texels(),
+        lean: shadows.leans(),
     })?;
 
     let matrices = common::uniform_layout(device);

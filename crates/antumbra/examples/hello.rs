@@ -51,6 +51,7 @@ pub fn run(device: &wgpu::Device, queue: &wgpu::Queue) -> Result<Vec<u8>, Box<dy
         receivers: scene.corners().collect(),
         size: shadows.size(),
         margin_texels: shadows.margin_texels(),
+        lean: shadows.leans(),
     })?;
 
     // 2. Your shader, then what it calls: `shadow_visibility`, bound in group 1.

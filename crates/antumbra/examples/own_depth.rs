@@ -57,6 +57,7 @@ pub fn run(device: &wgpu::Device, queue: &wgpu::Queue) -> Result<Vec<u8>, Box<dy
         receivers: scene.corners().collect(),
         size: shadows.size(),
         margin_texels: shadows.margin_texels(),
+        lean: shadows.leans(),
     })?;
 
     let source = shadows.wgsl(1).after(SHADER);

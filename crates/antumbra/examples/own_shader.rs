@@ -138,6 +138,7 @@ fn fit(shadows: &ShadowMap) -> CameraFit {
         scene: Bounds { min: Vec3::new(-20.0, -1.0, -80.0), max: Vec3::new(20.0, 5.0, 20.0) },
         size: shadows.size(),
         margin_texels: shadows.margin_texels(),
+        lean: shadows.leans(),
     }
 }
 

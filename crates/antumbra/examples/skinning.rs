@@ -188,6 +188,7 @@ fn sun(shadows: &ShadowMap) -> Result<View, LightError> {
         receivers: scene.corners().collect(),
         size: shadows.size(),
         margin_texels: shadows.margin_texels(),
+        lean: shadows.leans(),
     })
 }
 

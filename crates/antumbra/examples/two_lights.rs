@@ -68,6 +68,7 @@ impl Lit {
             receivers: scene.corners().collect(),
             size: shadows.size(),
             margin_texels: shadows.margin_texels(),
+            lean: shadows.leans(),
         })?;
         Ok(Self { shadows, view })
     }

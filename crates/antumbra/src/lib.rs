@@ -31,6 +31,7 @@
 //!         receivers: scene.corners().collect(),
 //!         size: shadows.size(),
 //!         margin_texels: shadows.margin_texels(),
+//!         lean: shadows.leans(),
 //!     })?;
 //!     let mut encoder = device.create_command_encoder(&Default::default());
 //!     shadows.prepare(queue, &[view])?;

@@ -182,6 +182,12 @@ impl ShadowMap {
         self.options.size
     }
 
+    /// Whether a view's depth should lean ([`Fit::lean`](crate::Fit)).
+    #[must_use]
+    pub fn leans(&self) -> bool {
+        self.description().leans()
+    }
+
     /// Free texels that a view should leave on each side ([`Fit::margin_texels`](crate::Fit)).
     #[must_use]
     pub fn margin_texels(&self) -> f32 {

@@ -305,6 +305,7 @@ fn light_messages() {
         receivers: bounds.corners().collect(),
         size: SIZE,
         margin_texels: 2.0,
+        lean: true,
     };
     let error = light.view(&fit).unwrap_err();
     assert!(matches!(error, LightError::Direction { .. }));

@@ -202,6 +202,7 @@ fn warped_depth_is_the_same_depth(gpu: &Gpu) {
 /// Comparisons do not notice that depth leans where the view says so.
 fn leaning_depth_is_the_same_depth(gpu: &Gpu) {
     let plain = depth_layers(gpu, SIZE, 1, |_, x, y| block(x, y));
+    let plain_view = view(SIZE);
     let fours =
         ["pcf.taps=bilinear", "pcf.taps=gather", "pcf.taps=merged", "bicubic", "footprint", "poisson"];
     let ones = ["hard", "hard.precision=16", "packed", "pcf.taps=nearest", "pcf.taps=nearest,precision=16"];
@@ -219,12 +220,12 @@ fn leaning_depth_is_the_same_depth(gpu: &Gpu) {
             depth_layers(gpu, SIZE, 1, |_, x, y| row.dot(Vec4::new(centre(x), -centre(y), block(x, y), 1.0)));
         for spec in specs {
             let technique = technique::parse(spec).unwrap();
-            let expected = answers(gpu, technique.as_ref(), Depth::new(&plain), common::view(SIZE));
+            let expected = answers(gpu, technique.as_ref(), Depth::new(&plain), plain_view);
             let found = answers(gpu, technique.as_ref(), Depth::new(&leaning), view);
             assert!(apart(&expected, &found) < 1e-3, "{spec}: {}", apart(&expected, &found));
         }
         let unaware = Broken::saying("hard", "uphill_lean(view)", "vec2f(0.0)");
-        let expected = answers(gpu, &unaware, Depth::new(&plain), common::view(SIZE));
+        let expected = answers(gpu, &unaware, Depth::new(&plain), plain_view);
         let found = answers(gpu, &unaware, Depth::new(&leaning), view);
         assert!(lean < 0.1 || apart(&expected, &found) > 0.03, "negative control");
     }

@@ -82,7 +82,8 @@ impl Picture {
         let mut maps: Vec<ShadowMap> = techniques.iter().map(new).collect();
         let all: Vec<&ShadowMap> = maps.iter().collect();
         let scene = self.geometry.bounds_around(self.camera.position).unwrap();
-        let view = views::fit(self.gpu_scene.camera_matrix(), scene, &self.light, 1, &all).unwrap()[0];
+        let lean = all.iter().all(|map| map.leans());
+        let view = views::fit(self.gpu_scene.camera_matrix(), scene, &self.light, 1, &all, lean).unwrap()[0];
         for map in &mut maps {
             map.prepare(&self.gpu.queue, &[view]).unwrap();
         }

@@ -1,7 +1,7 @@
 //! A technique with its settings on a device, as data.
 
 use super::{
-    About, Binding, CasterStorage, Class, Constant, DepthSpace, Uniform,
+    About, Binding, CasterStorage, Class, Constant, DepthSpace, Family, Uniform,
     map::{Encode, Map},
 };
 use crate::{
@@ -133,6 +133,13 @@ impl Description {
     #[must_use]
     pub fn margin_texels(&self) -> f32 {
         self.filter_radius_texels.ceil() + 1.0
+    }
+
+    /// Whether a view's depth should lean: where depth is filtered, or has steps. Comparisons of floats gain nothing, and
+    /// those of several texels at once are coarser where depth leans.
+    #[must_use]
+    pub fn leans(&self) -> bool {
+        self.about.family == Family::Basis || self.depth_quantum > 0.0
     }
 
     /// Whether receivers compare the casters' own depth.

@@ -60,6 +60,8 @@ pub struct CameraFit {
     pub size: Size,
     /// See [`Fit::margin_texels`].
     pub margin_texels: f32,
+    /// See [`Fit::lean`].
+    pub lean: bool,
 }
 
 impl CameraFit {
@@ -79,6 +81,7 @@ impl CameraFit {
             receivers,
             size: self.size,
             margin_texels: self.margin_texels,
+            lean: self.lean,
         };
         if cascades.count == 1 {
             return Ok(vec![fit(everything)]);
@@ -110,6 +113,7 @@ mod tests {
             scene: Bounds { min: Vec3::new(-50.0, 0.0, -50.0), max: Vec3::new(50.0, 10.0, 50.0) },
             size: Size::square(1024),
             margin_texels: 3.0,
+            lean: true,
         }
     }
 

@@ -2,7 +2,8 @@
 //!
 //! Across, a view covers the overlap of casters and receivers with a margin for penumbrae; in depth the receivers
 //! and, if casters are there, a tenth more towards the light: casters still nearer to it are to be clamped or
-//! pancaked onto the near plane. Planes of equal depth lean so that the range is the least. Texels are square; their world size comes in steps of 2^(1/16) and the map moves in
+//! pancaked onto the near plane. Planes of equal depth may lean so that the range is
+//! the least. Texels are square; their world size comes in steps of 2^(1/16) and the map moves in
 //! whole texels, so that a moving camera does not make edges crawl.
 
 use super::{
@@ -68,7 +69,10 @@ pub(super) fn view(direction: Vec3, fit: &Fit) -> Result<View, LightError> {
     // In depth: the receivers, with a little room for rounding. Casters farther out lose their depth
     // on the near plane; kept at a distance there, they stay well apart from the nearest receivers
     // for techniques that fall off gradually behind a caster.
-    let lean = slab::lean(fit.receivers.iter().map(|p| axes.of(p.as_dvec3()))).extend(1.0);
+    let lean = match fit.lean {
+        true => slab::lean(fit.receivers.iter().map(|p| axes.of(p.as_dvec3()))).extend(1.0),
+        false => DVec3::Z,
+    };
     let ends = |points: &mut dyn Iterator<Item = Vec3>| {
         points.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], p| {
             let depth = axes.of(p.as_dvec3()).dot(lean);

@@ -33,6 +33,10 @@ pub struct Fit {
     /// Free texels on each side, at least the technique's reach
     /// ([`ShadowMap::margin_texels`](crate::ShadowMap::margin_texels)).
     pub margin_texels: f32,
+    /// Whether planes of equal depth may lean, so that the range of depth under parallel light is the least: what falls
+    /// off gradually behind a caster then does so sooner, and few bits have finer steps
+    /// ([`ShadowMap::leans`](crate::ShadowMap::leans)).
+    pub lean: bool,
 }
 
 impl Fit {

@@ -4,7 +4,7 @@ use glam::Vec4;
 const BOX: Bounds = Bounds { min: Vec3::new(-10.0, 0.0, -10.0), max: Vec3::new(10.0, 5.0, 10.0) };
 
 fn fit(receivers: Vec<Vec3>) -> Fit {
-    Fit { casters: BOX, receivers, size: Size::square(512), margin_texels: 4.0 }
+    Fit { casters: BOX, receivers, size: Size::square(512), margin_texels: 4.0, lean: true }
 }
 
 fn project(view: &View, p: Vec3) -> Vec3 {

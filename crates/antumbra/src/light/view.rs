@@ -246,6 +246,7 @@ mod tests {
                 receivers: BOX.corners().collect(),
                 size: SIZE,
                 margin_texels: 2.0,
+                lean: true,
             };
             let view = light.view(&fit).unwrap();
             assert!(!view.is_reversed());

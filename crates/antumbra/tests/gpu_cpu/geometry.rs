@@ -347,7 +347,13 @@ pub(crate) fn triangles_behind_a_spot_are_cut(gpu: &Gpu) {
     let mut point = |reach: f32| Vec3::from_array(std::array::from_fn(|_| random.range(-reach, reach)));
     let light = Light::Spot { position: Vec3::ZERO, direction: Vec3::NEG_Z, outer_angle: 0.7 };
     let bounds = antumbra::Bounds { min: Vec3::splat(-4.0), max: Vec3::splat(4.0) };
-    let fit = Fit { casters: bounds, receivers: bounds.corners().collect(), size: MAP, margin_texels: 0.0 };
+    let fit = Fit {
+        casters: bounds,
+        receivers: bounds.corners().collect(),
+        size: MAP,
+        margin_texels: 0.0,
+        lean: true,
+    };
     let view = light.view(&fit).unwrap();
     let world_from_clip = view.clip_from_world.inverse();
     let (mut hits, mut cut, mut missed) = (0, 0, 0);

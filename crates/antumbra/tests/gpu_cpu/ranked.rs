@@ -148,7 +148,13 @@ pub(crate) fn centres_have_their_depth(gpu: &Gpu) {
     let mut point = || Vec3::from_array(std::array::from_fn(|_| random.range(-4.0, 4.0)));
     let light = Light::Spot { position: Vec3::ZERO, direction: Vec3::NEG_Z, outer_angle: 0.7 };
     let bounds = antumbra::Bounds { min: Vec3::splat(-4.0), max: Vec3::splat(4.0) };
-    let fit = Fit { casters: bounds, receivers: bounds.corners().collect(), size: MAP, margin_texels: 0.0 };
+    let fit = Fit {
+        casters: bounds,
+        receivers: bounds.corners().collect(),
+        size: MAP,
+        margin_texels: 0.0,
+        lean: false,
+    };
     let view = light.view(&fit).unwrap();
     let world_from_clip = view.clip_from_world.inverse();
     let user = "@group(1) @binding(0) var<storage, read> unused: array<f32>;

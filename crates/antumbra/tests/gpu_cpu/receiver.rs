@@ -67,6 +67,7 @@ fn spot() -> Mat4 {
         receivers: bounds.corners().collect(),
         size: SIZE,
         margin_texels: 2.0,
+        lean: true,
     };
     spot.view(&fit).unwrap().clip_from_world
 }
@@ -202,8 +203,14 @@ pub(crate) fn six_spots_are_a_point_light(gpu: &Gpu) {
         let position = Vec3::ZERO;
         let spot = Light::Spot { position, direction, outer_angle: std::f32::consts::FRAC_PI_4 };
         let (casters, receivers) = (bounds(1.0), bounds(3.0).corners().collect());
-        spot.view(&antumbra::Fit { casters, receivers, size, margin_texels: shadows.margin_texels() })
-            .unwrap()
+        spot.view(&antumbra::Fit {
+            casters,
+            receivers,
+            size,
+            margin_texels: shadows.margin_texels(),
+            lean: true,
+        })
+        .unwrap()
     };
     let views: Vec<_> = axes.map(view).collect();
     shadows.prepare(&gpu.queue, &views).unwrap();
