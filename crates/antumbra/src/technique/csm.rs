@@ -3,7 +3,9 @@
 //! The step f(d, z) becomes ½ + Σ 2/c_k · sin(c_k (z − d)), c_k = π(2k − 1), k = 1..M, which
 //! separates into functions of d and of z; the 2M functions of z are stored in 8 bits and filtered.
 //! The series ramps where the step jumps: surfaces near their caster come out too bright, more so
-//! with few terms; an offset of d (or a scale) brings lit surfaces from one half to one.
+//! with few terms; an offset of d (or a scale) brings lit surfaces from one half to one. What the truncated series falls
+//! short of, or exceeds, in the middle between two steps is divided out, so that light is one and shadow is zero with any
+//! number of terms.
 //!
 //! Annen, Mertens, Bekaert, Seidel, Kautz 2007, "Convolution shadow maps". Eq. 11 there has the
 //! sign of d − z reversed; this is Eq. 13 and 14.
@@ -51,12 +53,16 @@ pub struct Csm {
     pub terms: u32,
     /// What coefficients are stored in.
     pub storage: Storage,
-    /// Attenuation α: term k is weighted by exp(−α (k/M)²) against ringing.
+    /// Attenuation α: term k is weighted by exp(−α (k/M)²) against ringing; below 0 for the one that suits M
+    /// ([`alpha`](Csm::alpha)).
     pub attenuation: f32,
     /// How lit surfaces are lifted.
     pub lift: Lift,
-    /// Offset in depth ranges; 0 for the half width of the attenuated series' ramp.
+    /// Offset in depth ranges; 0 for the [ramp](Csm::ramp) of the series.
     pub offset: f32,
+    /// By how much of the depth range a receiver may lie in front of what is stored, above 0. The series steps back
+    /// before 1: depths are shrunk so far that no such receiver reaches that step, and not at all where none would.
+    pub reach: f32,
     /// Blur, mips and sampling.
     pub filter: Filter,
 }
@@ -66,9 +72,10 @@ impl Default for Csm {
         Self {
             terms: 16,
             storage: Storage::Unorm8,
-            attenuation: 1.0,
+            attenuation: -1.0,
             lift: Lift::Offset,
             offset: 0.0,
+            reach: 1.0,
             filter: Filter::default(),
         }
     }
@@ -100,41 +107,53 @@ impl Csm {
         }
     }
 
+    /// The attenuation α in use. What suits M is ½ (M/16)², at most ½: few terms have no steepness to spare, many ring.
+    #[must_use]
+    pub fn alpha(&self) -> f32 {
+        if self.attenuation >= 0.0 { self.attenuation } else { 0.5 * (self.terms as f32 / 16.0).powi(2).min(1.0) }
+    }
+
     /// exp(−α (k/M)²), k = 1..M.
     fn attenuations(&self) -> impl Iterator<Item = f64> {
-        let (m, alpha) = (f64::from(self.terms), f64::from(self.attenuation));
+        let (m, alpha) = (f64::from(self.terms), f64::from(self.alpha()));
         (1..=self.terms).map(move |k| (-alpha * (f64::from(k) / m).powi(2)).exp())
     }
 
-    /// Half the width of the series' ramp, in depth ranges: the smallest t > 0 at which
-    /// ½ + Σ 2/c_k · attenuation_k · sin(c_k t) stops rising. 1/(2M) without attenuation.
+    /// 2/c_k · attenuation_k, k = 1..M, times what brings the series to 1 at z − d = ½, in the middle between two steps.
+    fn weights(&self) -> impl Iterator<Item = f64> {
+        let weight = |(k, a): (u32, f64)| 2.0 * a / (PI * (2.0 * f64::from(k) - 1.0));
+        let plain = move || (1..=self.terms).zip(self.attenuations()).map(weight);
+        // Sines at half a turn and its odd multiples.
+        let middle: f64 = plain().enumerate().map(|(k, w)| if k % 2 == 0 { w } else { -w }).sum();
+        plain().map(move |w| 0.5 * w / middle)
+    }
+
+    /// Width of the series' ramp on the lit side, in depth ranges: the least z − d at which it comes within 1/255 of 1.
     #[must_use]
     pub fn ramp(&self) -> f32 {
-        let slope = |t: f64| -> f64 {
-            self.attenuations().enumerate().map(|(k, a)| a * (PI * (2.0 * k as f64 + 1.0) * t).cos()).sum()
-        };
-        let step = 1.0 / (64.0 * f64::from(self.terms));
+        let weights: Vec<f64> = self.weights().collect();
+        let short = |t: f64| reference::sum(&weights, t) < 0.5 - 1.0 / 255.0;
+        let step = 1.0 / (256.0 * f64::from(self.terms));
         let mut low = 0.0;
-        while low < 0.5 && slope(low + step) > 0.0 {
+        while low < 0.5 && short(low + step) {
             low += step;
         }
         let mut high = (low + step).min(0.5);
         for _ in 0..40 {
             let middle = 0.5 * (low + high);
-            if slope(middle) > 0.0 { low = middle } else { high = middle }
+            if short(middle) { low = middle } else { high = middle }
         }
         high as f32
     }
 }
 
 impl Csm {
-    /// Factor on all depths, at least one half. The square wave behind the series has period 2 and
-    /// steps back at z − d = ±1, with the same ramp: without room for it (and for the offset) a
-    /// receiver near the light would be dark in front of an empty texel. The paper, whose depth
-    /// range is not fitted this tightly, has no such factor.
+    /// Factor on all depths, from one half to 1. The square wave behind the series has period 2 and
+    /// steps back at z − d = ±1, with the same ramp: a receiver near the light would be dark in front of an empty texel
+    /// that is farther away than the ramp, and the offset, leave of the period.
     #[must_use]
     pub fn span(&self) -> f32 {
-        (1.0 - self.ramp() - self.ramp().max(self.lift_offset())).max(0.5)
+        ((1.0 - self.ramp() - self.ramp().max(self.lift_offset())) / self.reach).clamp(0.5, 1.0)
     }
 
     /// What is taken off the receiver's depth.
@@ -160,10 +179,8 @@ impl Csm {
             .map(|i| start + (end - start) * f64::from(i) / 1024.0)
             .map(|t| (reference::series(self, 0.0, t) - 1.0).abs())
             .fold(0.0, f64::max);
-        let quantisation: f64 = (1..=self.terms)
-            .zip(self.attenuations())
-            .map(|(k, a)| 2.0 * a / (PI * (2.0 * f64::from(k) - 1.0)) * self.rounding() * std::f64::consts::SQRT_2)
-            .sum();
+        let quantisation: f64 =
+            self.weights().map(|w| w.abs() * self.rounding() * std::f64::consts::SQRT_2).sum();
         ((overshoot + quantisation) * f64::from(self.scale())) as f32
     }
 }
@@ -184,15 +201,21 @@ impl Technique for Csm {
             Parameter::new(
                 "attenuation",
                 "",
-                Field::Number(&mut self.attenuation, 0.0..=10.0),
-                "α of exp(−α (k/M)²): less ringing, wider ramp",
+                Field::Number(&mut self.attenuation, -1.0..=10.0),
+                "α of exp(−α (k/M)²): less ringing, wider ramp; below 0 is ½ (M/16)², at most ½",
             ),
             Parameter::new("lift", "", Field::Choice(&mut self.lift), "how lit surfaces are lifted from one half to one"),
             Parameter::new(
                 "offset",
                 "depth range",
                 Field::Number(&mut self.offset, 0.0..=0.5),
-                "taken off the receiver's depth; 0 is the half width of the ramp",
+                "taken off the receiver's depth; 0 is the width of the ramp on the lit side",
+            ),
+            Parameter::new(
+                "reach",
+                "depth range",
+                Field::Number(&mut self.reach, 0.01..=1.0),
+                "how far receivers may lie in front of what is stored without reaching the series' next step",
             ),
         ];
         own.into_iter().chain(self.filter.parameters()).collect()
@@ -200,11 +223,7 @@ impl Technique for Csm {
     fn describe(&self, device: &Capabilities) -> Result<Description, Unsupported> {
         let wgsl = include_str!("csm.wgsl");
         let mut described = Description::filtered(self.about(), wgsl, &self.filter, self.values(), device);
-        let mut weights: Vec<f32> = self
-            .attenuations()
-            .enumerate()
-            .map(|(k, a)| (2.0 * a / (PI * (2.0 * k as f64 + 1.0))) as f32)
-            .collect();
+        let mut weights: Vec<f32> = self.weights().map(|w| w as f32).collect();
         weights.resize(2 * self.layers() as usize, 0.0);
         described
             .constants
@@ -218,7 +237,7 @@ impl Technique for Csm {
         Ok(described)
     }
     fn variants(&self) -> Vec<&'static str> {
-        [&Filter::VARIANTS[..], &["terms=4", "terms=1,lift=both", "storage=float16", "storage=float32"]].concat()
+        [&Filter::VARIANTS[..], &["terms=4", "terms=3,lift=both", "storage=float16", "storage=float32"]].concat()
     }
     fn clone_box(&self) -> Box<dyn Technique> {
         Box::new(*self)
@@ -236,13 +255,18 @@ pub mod reference {
         let angle = PI * (2.0 * f64::from(k) - 1.0) * z;
         [angle.sin(), angle.cos()]
     }
-    /// Eq. 13 with attenuation, unclamped, for one unfiltered caster depth.
+    /// Σ w_k · sin(c_k t): what the series is above one half at z − d = t.
+    #[must_use]
+    pub fn sum(weights: &[f64], t: f64) -> f64 {
+        weights.iter().zip(1..).map(|(w, k)| w * basis(k, t)[0]).sum()
+    }
+    /// Eq. 13 with attenuation and the middle divided out, unclamped, for one unfiltered caster depth.
     #[must_use]
     pub fn series(csm: &Csm, d: f64, z: f64) -> f64 {
-        let sum: f64 = std::iter::zip(1..=csm.terms, csm.attenuations())
-            .map(|(k, a)| {
+        let sum: f64 = std::iter::zip(1..=csm.terms, csm.weights())
+            .map(|(k, w)| {
                 let [[sd, cd], [sz, cz]] = [basis(k, d), basis(k, z)];
-                2.0 * a / (PI * (2.0 * f64::from(k) - 1.0)) * (cd * sz - sd * cz)
+                w * (cd * sz - sd * cz)
             })
             .sum();
         0.5 + sum
@@ -254,22 +278,51 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_ramp_is_half_a_period_of_the_highest_term_without_attenuation() {
-        for terms in 1..=16 {
-            let csm = Csm { terms, attenuation: 0.0, ..Csm::default() };
-            assert!((csm.ramp() - 1.0 / (2.0 * terms as f32)).abs() < 1e-5, "{terms}: {}", csm.ramp());
-            let softer = Csm { attenuation: 2.0, ..csm };
-            assert!(softer.ramp() >= csm.ramp());
+    fn the_ramp_ends_where_the_series_first_reaches_one() {
+        for terms in [1, 2, 3, 4, 8, 16, 32] {
+            for attenuation in [0.0, 0.5, 1.0, 2.0] {
+                let csm = Csm { terms, attenuation, ..Csm::default() };
+                let ramp = f64::from(csm.ramp());
+                let before = (0..200).map(|i| reference::series(&csm, 0.0, ramp * f64::from(i) / 200.0));
+                assert!(before.into_iter().all(|v| v < 1.0 - 1.0 / 255.0), "{terms} {attenuation}");
+                let there = reference::series(&csm, 0.0, ramp);
+                assert!((there - (1.0 - 1.0 / 255.0)).abs() < 1e-4, "{terms} {attenuation}: {there}");
+                // Never wider than half a period of the highest term, where the plain series stops rising.
+                let half_period = 1.0 / (2.0 * f64::from(terms));
+                assert!(attenuation > 0.0 || ramp < half_period, "{terms}");
+            }
         }
     }
 
     #[test]
     fn the_series_is_one_in_front_and_zero_behind_with_the_right_sign() {
-        let csm = Csm::default();
-        assert!((reference::series(&csm, 0.3, 0.7) - 1.0).abs() < 0.05);
-        assert!(reference::series(&csm, 0.7, 0.3).abs() < 0.05);
-        assert!((reference::series(&csm, 0.4, 0.4) - 0.5).abs() < 1e-9);
-        // With the offset a surface that is its own caster is lit.
-        assert!(reference::series(&csm, 0.4 - f64::from(csm.ramp()), 0.4) > 0.97);
+        for terms in [1, 2, 4, 16] {
+            for attenuation in [0.0, 1.0] {
+                let csm = Csm { terms, attenuation, ..Csm::default() };
+                assert!((reference::series(&csm, 0.2, 0.7) - 1.0).abs() < 1e-9, "{terms} {attenuation}");
+                assert!(reference::series(&csm, 0.7, 0.2).abs() < 1e-9, "{terms} {attenuation}");
+                assert!((reference::series(&csm, 0.4, 0.4) - 0.5).abs() < 1e-9);
+                // With the offset a surface that is its own caster is lit.
+                assert!(reference::series(&csm, 0.4 - f64::from(csm.ramp()), 0.4) > 0.996);
+            }
+        }
+    }
+
+    #[test]
+    fn depths_are_shrunk_only_as_far_as_the_next_step_is_reached() {
+        for terms in [1, 2, 4, 16, 32] {
+            for reach in [0.3, 0.8, 0.9, 1.0] {
+                let csm = Csm { terms, reach, ..Csm::default() };
+                let (span, offset) = (f64::from(csm.span()), f64::from(csm.ramp()));
+                assert!((0.5..=1.0).contains(&span));
+                let room = 1.0 - 2.0 * offset;
+                assert_eq!(span == 1.0, room >= f64::from(reach), "{terms} {reach}: {span}");
+                // The farthest that is stored, in front of which the receiver lies, and the shadow farthest behind.
+                if room >= 0.5 * f64::from(reach) {
+                    let lit = reference::series(&csm, -offset, span * f64::from(reach));
+                    assert!(lit > 0.95, "{terms} {reach}: {lit}");
+                }
+            }
+        }
     }
 }
