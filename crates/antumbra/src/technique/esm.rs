@@ -46,10 +46,11 @@ choice! {
     Classifier {
         /// Not at all: the product is clamped.
         None = "none",
-        /// By a product above 1 + ε. Free; misses some.
+        /// By a product above 1 + ε. Free; misses those whose product stays below, though a caster lies behind.
         Threshold = "threshold",
         /// By the farthest caster in the kernel, kept in a second map with greatest-value mips (and
-        /// widened by the blur's kernel). Misses none; 4 more bytes per texel.
+        /// widened by the blur's kernel). Misses none that Threshold finds, and finds steep lit surfaces
+        /// too; 4 more bytes per texel.
         ZMax = "zmax",
     }
 }
@@ -77,8 +78,8 @@ pub struct Esm {
     pub classifier: Classifier,
     /// ε: by how much the product may exceed one before a pixel counts as failing.
     pub epsilon: f32,
-    /// For Z-Max: how far a caster may lie behind the receiver before the pixel counts as failing, times
-    /// what the receiver's own plane gains across the kernel, beside what ε allows. 1 spares lit planes.
+    /// For Z-Max: how far a caster may lie behind the receiver before the pixel counts as failing, in depth ranges;
+    /// 0 for what a product of 1 + ε allows, the largest offset that misses none. Larger ones spare lit slopes.
     pub offset: f32,
     /// What is done with failing pixels.
     pub custom: Custom,
@@ -93,7 +94,7 @@ impl Default for Esm {
             storage: Storage::Powers,
             classifier: Classifier::Threshold,
             epsilon: 0.1,
-            offset: 1.0,
+            offset: 0.0,
             custom: Custom::Four,
             filter: Filter::default(),
         }
@@ -121,6 +122,21 @@ impl Esm {
     #[must_use]
     pub fn steepness(&self) -> f32 {
         if self.c > 0.0 { self.c } else { self.steepest().min(80.0) }
+    }
+
+    /// The offset of Z-Max in use.
+    #[must_use]
+    pub fn allowance(&self) -> f32 {
+        if self.offset > 0.0 {
+            return self.offset;
+        }
+        // A product may be too large by what rounds exponents and sums, and a stored depth by its own rounding.
+        let stored = match self.storage {
+            Storage::LogHalf if self.is_logarithmic() => 1.0 / 4096.0,
+            Storage::Log16 if self.is_logarithmic() => 1.0 / 131_072.0,
+            _ => 0.0,
+        };
+        self.epsilon.ln_1p() / self.steepness() - stored - 4e-6 / self.steepness() - 1e-6
     }
 
     fn is_logarithmic(&self) -> bool {
@@ -214,9 +230,9 @@ impl Technique for Esm {
             ),
             Parameter::new(
                 "offset",
-                "own slope",
-                Field::Number(&mut self.offset, 0.0..=8.0),
-                "casters behind by so many times the slope across the kernel do not fail; only with classifier=zmax",
+                "depth range",
+                Field::Number(&mut self.offset, 0.0..=1.0),
+                "casters behind by no more do not fail; 0 is what a result of 1 + ε allows; only with classifier=zmax",
             ),
             Parameter::new("custom", "", Field::Choice(&mut self.custom), "how failing pixels are filtered"),
         ];
@@ -227,7 +243,7 @@ impl Technique for Esm {
         let mut described = Description::filtered(self.about(), self.wgsl(), &self.filter, values, device);
         described.constants.push(Constant::Count("esm_logarithms", u32::from(self.is_logarithmic())));
         described.uniforms =
-            vec![("c", self.steepness()), ("epsilon", self.epsilon), ("offset", self.offset)];
+            vec![("c", self.steepness()), ("epsilon", self.epsilon), ("offset", self.allowance())];
         // Where a thousandth of the light is left.
         described.ramp = 7.0 / self.steepness();
         if self.classifier != Classifier::None {
@@ -242,7 +258,6 @@ impl Technique for Esm {
         if self.classifier == Classifier::ZMax {
             described.maps.push(self.farthest());
             described.bindings.push(Binding::Map(1));
-            described.widths = vec![("kernel", self.filter.width())];
             // Where no pixel fails: custom filtering takes four more.
             described.fetches += 4;
             if !self.filters_four() {

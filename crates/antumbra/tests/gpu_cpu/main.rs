@@ -5,6 +5,7 @@
 #![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
 
 mod basis;
+mod classes;
 mod comparison;
 mod geometry;
 mod lists;
@@ -141,6 +142,7 @@ type Comparison = (&'static str, fn(&Gpu));
 const COMPARISONS: &[Comparison] = &[
     ("esm encodes and bounds", basis::esm_encodes_and_bounds),
     ("esm of logarithms", basis::esm_of_logarithms),
+    ("esm's Z-Max misses nothing that Threshold finds", classes::zmax_misses_nothing),
     ("vsm encodes", basis::vsm_encodes),
     ("vsm and chebyshev bound", basis::vsm_and_chebyshev_bound),
     ("evsm encodes and bounds", basis::evsm_encodes_and_bounds),

@@ -193,7 +193,7 @@ fn second_view(spec: &str, description: &Description, module: &naga::Module, byt
     // 140 and 1400 world units in texels of 28; the latter is more than 31 texels.
     // A box of five has the variance (5² − 1) / 12, the Gaussian of σ = 1.1 by its taps.
     let further = match spec.split(['.', ',']).next().unwrap() {
-        "esm" => vec![5.0, gaussian],
+        "esm" => vec![gaussian],
         "csm" if spec.contains("box") => vec![2.0],
         "poisson" => vec![31.0],
         _ => Vec::new(),

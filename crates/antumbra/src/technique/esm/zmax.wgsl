@@ -1,6 +1,5 @@
 
-/// Level of the map of farthest depths whose texels are at least as wide as those of a lookup: none of its
-/// casters lies outside the four texels around uv.
+/// Level of the map of farthest depths whose four texels around uv hold all that a lookup reads.
 fn esm_level(farthest: texture_2d_array<f32>, view: u32, ddx: vec2f, ddy: vec2f) -> f32 {
     let wanted = ceil(lookup_level(tile_size(view), view, ddx, ddy));
     return min(wanted, tile_coarsest(view, textureNumLevels(farthest)));
@@ -18,20 +17,16 @@ fn esm_deepest(farthest: texture_2d_array<f32>, map_sampler: sampler, uv: vec2f,
     return deepest;
 }
 
-/// Whether any caster in the kernel lies behind the receiver by more than a product of 1 + ε allows,
-/// and by more than esm_offset times what the receiver's own plane gains on the way from there: half a
-/// kernel of finest texels and two of the level [section 3.3].
-fn esm_failed(farthest: texture_2d_array<f32>, map_sampler: sampler, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f) -> bool {
+/// Whether any caster in the kernel lies behind the receiver by more than esm_offset [section 3.3]. No product exceeds
+/// that of the farthest: with an offset of ln(1 + ε) / c none above 1 + ε is missed.
+fn esm_failed(farthest: texture_2d_array<f32>, map_sampler: sampler, uv: vec2f, view: u32, depth: f32, ddx: vec2f, ddy: vec2f) -> bool {
     let level = esm_level(farthest, view, ddx, ddy);
-    let slope = dot(abs(plane), 1.0 / tile_size(view));
-    let reach = 0.5 * (esm_kernel(view) - 1.0) + 2.0 * exp2(level);
-    let allowed = log(1.0 + esm_epsilon()) / esm_c() + esm_offset() * slope * reach;
-    return depth + allowed < esm_deepest(farthest, map_sampler, uv, view, level);
+    return depth + esm_offset() < esm_deepest(farthest, map_sampler, uv, view, level);
 }
 
 /// One filtered lookup, clamped to [0,1]; custom filtering where it may have failed.
 fn esm_visibility(map: LookupMap, map_sampler: sampler, farthest: texture_2d_array<f32>, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f) -> f32 {
-    if esm_failed(farthest, map_sampler, uv, view, depth, plane, ddx, ddy) {
+    if esm_failed(farthest, map_sampler, uv, view, depth, ddx, ddy) {
         return esm_custom(map, uv, view, depth);
     }
     return min(esm_ratio(depth, lookup_filtered(map, map_sampler, uv, view, tile_layer(view), ddx, ddy).x), 1.0);
@@ -39,7 +34,7 @@ fn esm_visibility(map: LookupMap, map_sampler: sampler, farthest: texture_2d_arr
 
 /// 1 where the assumption behind the method may be violated.
 fn esm_class(map: LookupMap, map_sampler: sampler, farthest: texture_2d_array<f32>, uv: vec2f, view: u32, depth: f32, plane: vec2f, ddx: vec2f, ddy: vec2f) -> u32 {
-    return select(0u, 1u, esm_failed(farthest, map_sampler, uv, view, depth, plane, ddx, ddy));
+    return select(0u, 1u, esm_failed(farthest, map_sampler, uv, view, depth, ddx, ddy));
 }
 
 /// Linear depth as it is, for the map of farthest depths.
