@@ -23,6 +23,8 @@ pub struct Classes {
     pub picture: Rgba8Image,
     /// The shares of the classes.
     pub shares: Vec<ClassShare>,
+    /// Each pixel's number, as [`shares`] takes it.
+    pub numbers: GrayImage,
 }
 
 impl Classes {
@@ -31,7 +33,8 @@ impl Classes {
     /// # Errors
     /// As [`picture`].
     pub fn new(visibility: &GrayImage, numbers: &GrayImage, classes: &[Class]) -> Result<Self, ImageError> {
-        Ok(Self { picture: picture(visibility, numbers, classes)?, shares: shares(numbers, classes) })
+        let picture = picture(visibility, numbers, classes)?;
+        Ok(Self { picture, shares: shares(numbers, classes), numbers: numbers.clone() })
     }
 }
 

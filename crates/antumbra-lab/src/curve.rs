@@ -23,7 +23,7 @@ const SIZE: Size = Size::square(64);
 /// Settings that the device cannot do, naming the technique; a lost device.
 pub fn visibility(gpu: &Gpu, technique: &dyn Technique, caster: f32, receivers: &[f32]) -> Result<Vec<f32>> {
     let questions: Vec<[f32; 2]> = receivers.iter().map(|depth| [0.0, *depth]).collect();
-    answers(gpu, technique, caster, SIZE.width, &questions)
+    answers(gpu, technique, [caster, 1.0], SIZE.width, &questions)
 }
 
 /// What `shadow_visibility` answers across the edge of a caster that covers the left half of the map's
@@ -33,6 +33,20 @@ pub fn visibility(gpu: &Gpu, technique: &dyn Technique, caster: f32, receivers: 
 /// # Errors
 /// As [`visibility`]; a technique that keeps triangles, which has no texels to filter.
 pub fn edge(gpu: &Gpu, technique: &dyn Technique, receiver: f32, positions: &[f32]) -> Result<Vec<f32>> {
+    beside(gpu, technique, [0.25, 1.0, receiver], positions)
+}
+
+/// The same for a caster at the first of three depths, beside texels that hold the second (1 if they are empty), and
+/// receivers at the third.
+///
+/// # Errors
+/// As [`edge`].
+pub fn beside(
+    gpu: &Gpu,
+    technique: &dyn Technique,
+    [caster, rest, receiver]: [f32; 3],
+    positions: &[f32],
+) -> Result<Vec<f32>> {
     let texel = 2.0 / SIZE.width as f32;
     let device = Capabilities::of(&gpu.device);
     if technique.describe(&device)?.storage != CasterStorage::Depth {
@@ -42,15 +56,15 @@ pub fn edge(gpu: &Gpu, technique: &dyn Technique, receiver: f32, positions: &[f3
         bail!("a position {far} texels from the edge: allowed are −16 to 16");
     }
     let questions: Vec<[f32; 2]> = positions.iter().map(|p| [p * texel, receiver]).collect();
-    answers(gpu, technique, 0.25, SIZE.width / 2, &questions)
+    answers(gpu, technique, [caster, rest], SIZE.width / 2, &questions)
 }
 
 /// Answers to questions (position across the map from −1 to 1, depth) where the caster covers so many
-/// columns of texels from the left.
+/// columns of texels from the left, and another depth the rest.
 fn answers(
     gpu: &Gpu,
     technique: &dyn Technique,
-    caster: f32,
+    [caster, rest]: [f32; 2],
     columns: u32,
     questions: &[[f32; 2]],
 ) -> Result<Vec<f32>> {
@@ -61,11 +75,15 @@ fn answers(
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     match shadows.description().storage {
         CasterStorage::Depth => {
-            let flat = flat(gpu, caster);
+            // An empty texel holds 1 as it is.
+            let flats = [(caster, 0..columns), (rest, columns..SIZE.width)];
+            let flats = flats.map(|(depth, columns)| (flat(gpu, depth), columns));
             shadows.encode(&mut encoder, |pass| {
-                pass.set_pipeline(&flat);
-                pass.set_scissor_rect(0, 0, columns, SIZE.height);
-                pass.draw(0..3, 0..1);
+                for (flat, columns) in flats.iter().filter(|(_, columns)| !columns.is_empty()) {
+                    pass.set_pipeline(flat);
+                    pass.set_scissor_rect(columns.start, 0, columns.end - columns.start, SIZE.height);
+                    pass.draw(0..3, 0..1);
+                }
             })?;
         }
         _ => {

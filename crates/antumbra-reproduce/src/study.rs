@@ -57,6 +57,9 @@ pub struct Look {
     pub tinted: Option<StoredImage>,
     /// The shares of those kinds.
     pub classes: Vec<ClassShare>,
+    /// Each pixel's kind: 1 for the first, 0 for none, below 0 without geometry; empty where none are told apart.
+    #[serde(with = "packed")]
+    pub(crate) kinds: Vec<f32>,
     /// Its textures and buffers.
     pub memory: MemoryResult,
     /// Bytes per texel, lookups, passes.

@@ -119,4 +119,15 @@ impl<'a> Workbench<'a> {
             curve::edge(&self.gpu, own::parse(spec)?.as_ref(), receiver, positions)
         })
     }
+
+    /// What [`curve::beside`] answers.
+    ///
+    /// # Errors
+    /// As [`study`](Self::study).
+    pub fn beside(&self, spec: &str, depths: [f32; 3], positions: &[f32]) -> Result<Vec<f32>> {
+        self.cache.memo(&("beside", spec, depths, positions), || {
+            self.progress.step(&format!("edge with {spec}"));
+            curve::beside(&self.gpu, technique::parse(spec)?.as_ref(), depths, positions)
+        })
+    }
 }

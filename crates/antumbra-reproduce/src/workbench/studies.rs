@@ -129,7 +129,8 @@ fn look(session: &Session<'_>, prepared: &Prepared, spec: &str) -> Result<Look> 
     let visibility = session.draw_and_ask(prepared)?;
     let picture = session.picture()?;
     let classes = session.classes(prepared, &visibility)?;
-    let (tinted, classes) = classes.map_or((None, Vec::new()), |c| (Some(c.picture.into()), c.shares));
+    let (tinted, classes, kinds) = classes
+        .map_or((None, Vec::new(), Vec::new()), |c| (Some(c.picture.into()), c.shares, c.numbers.values));
     Ok(Look {
         spec: spec.into(),
         title: shadows.technique().about().title.into(),
@@ -137,6 +138,7 @@ fn look(session: &Session<'_>, prepared: &Prepared, spec: &str) -> Result<Look> 
         visibility: visibility.values,
         tinted,
         classes,
+        kinds,
         memory: facts::memory(&shadows.memory()),
         work: facts::work(shadows),
     })
