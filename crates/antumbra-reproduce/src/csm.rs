@@ -90,8 +90,8 @@ pub(crate) const SOURCE: Source = Source {
             paper: "Few terms brighten shadows where occluder and receiver are close: a low square, a slanted polygon that \
                     touches the ground. M = 4 is satisfactory, without noticeable intensity artifacts; M = 16 is sharper.",
             ours: "The scenes blocks, with four floating squares and a slanted polygon, and spheres; 1024² maps, 3×3 Gauss, \
-                   8-bit coefficients, M from 1 to 32, lit by the offset; the paper does not say which lift its figure has, so \
-                   M = 4 is judged with the scale too. Contact is where the caster is nearer than a twentieth of the depth range.",
+                   8-bit coefficients, M from 1 to 32, lit by the offset as all results of the paper; M = 4 is shown with the \
+                   scale too. Contact is where the caster is nearer than a twentieth of the depth range.",
             seconds: [22, 3],
             run: terms::figure_6,
         },
@@ -120,9 +120,9 @@ pub(crate) const SOURCE: Source = Source {
             paper: "A fence in front of other objects, with a variance shadow map (a) and a convolution shadow map (b). \
                     Objects behind the fence add depth complexity: light leaks into the VSM's shadows there, while the \
                     CSM renders them without artifacts.",
-            ours: "The scenes fence and layers, a 2048² map, a 7×7 Gaussian. A VSM leaks where its visibility is above \
-                   0.05 though rays say full shadow there and within 4 pixels. Pixels whose caster is nearer than the ramp of the CSM, 7 % of the \
-                   depth range, are left out: there the CSM is known to be too bright (figure 6).",
+            ours: "The scene fence in low sun, in which objects stand behind the fence as light sees them, and the scene layers; a \
+                   2048² map, a 7×7 Gaussian. Judged where rays say full shadow behind two casters or more that are at least a \
+                   twentieth of the depth range apart and from the receiver.",
             seconds: [63, 6],
             run: layers::figure_9,
         },

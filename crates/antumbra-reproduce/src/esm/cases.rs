@@ -4,7 +4,7 @@ use crate::{
     gallery,
     page::{Cell, Page, Table, Unit},
     stored_image::difference,
-    verdict::{Verdict, at_least, at_most, less},
+    verdict::{Ran, Saying, Verdict, at_least, at_most, esm, less},
     workbench::Workbench,
 };
 use antumbra::technique::Bias;
@@ -55,39 +55,63 @@ pub(super) fn figure_3(bench: &Workbench<'_>) -> Result<Page> {
     Ok(page)
 }
 
-/// A quarter: between half lit, as it ought to be, and lit.
+/// What the figure's caption says.
+fn violated(words: &str) -> Saying {
+    esm("figure 3", words)
+}
+
+/// What ran: one of [`ANSWERS`].
+fn case(answer: usize) -> Ran {
+    Ran::new("a map of two depths, 64²", [ANSWERS[answer].0])
+}
+
+/// A claim that an answer has no error that shows.
+fn exact(words: &str, claim: &str, answer: usize, error: f64) -> Verdict {
+    Verdict::new(
+        violated(words),
+        claim,
+        case(answer),
+        [at_most("its error", error, "a step of an 8-bit picture", 1.0 / 255.0)
+            .ours("less is no difference in a picture of 8 bits")],
+    )
+}
+
 fn too_bright(error: f64) -> Verdict {
     Verdict::new(
+        violated(
+            "x should be darkened by 50% but its intensity is incorrectly increased because z(p) > d(x).",
+        ),
         "(a) A point that ought to be half in shadow is too bright where the kernel reaches behind it",
-        [at_least("error of the clamped product", error, "a quarter", 0.25)],
+        case(1),
+        [at_least("error of the clamped product", error, "a quarter", 0.25)
+            .ours("half of the way from half lit, as it ought to be, to lit")],
     )
 }
 
 fn unseen(error: f64) -> Verdict {
-    Verdict::new(
-        "(b) Where the point is lit anyway, the failure does not show",
-        [at_most("error of the clamped product", error, "a step of an 8-bit picture", 1.0 / 255.0)],
-    )
+    let words = "here x is lit anyway and therefore doesn't cause artifacts.";
+    exact(words, "(b) Where the point is lit anyway, the failure does not show", 1, error)
 }
 
 fn correct(error: f64) -> Verdict {
-    Verdict::new(
-        "(c) Where nothing lies behind the receiver, the filter is correct",
-        [at_most("error of the clamped product", error, "a step of an 8-bit picture", 1.0 / 255.0)],
-    )
+    let words = "(c) depicts a setup where our assumption holds and correct filtering is applied.";
+    exact(words, "(c) Where nothing lies behind the receiver, the filter is correct", 1, error)
 }
 
 fn mended(error: f64) -> Verdict {
-    Verdict::new(
-        "Custom filtering mends (a)",
-        [at_most("error with custom filtering", error, "a step of an 8-bit picture", 1.0 / 255.0)],
-    )
+    let words = "In both cases however a failure is detected and we enable PCF.";
+    exact(words, "Custom filtering mends (a)", 2, error)
 }
 
 fn too_wide(clamped: f64, custom: f64) -> Verdict {
+    let words =
+        "our current custom PCF cannot remove artifacts that occur when additional convolutions are used";
     Verdict::new(
+        esm("§3.4", words),
         "Custom filtering cannot mend wide convolutions",
-        [at_least("error with custom filtering after 5×5", custom, "half of that without", 0.5 * clamped)],
+        case(4),
+        [at_least("error with custom filtering after 5×5", custom, "half of that without", 0.5 * clamped)
+            .ours("what leaves half of an error does not remove it")],
     )
 }
 
@@ -127,27 +151,31 @@ pub(super) fn figure_4(bench: &Workbench<'_>) -> Result<Page> {
     Ok(page)
 }
 
-/// A tenth of the lit pixels is a pattern all over, and ten times what is left of it with an offset.
+const SPHERES: &str = "spheres, 640×480, 1024²";
+
 fn needs_offset(without: Option<f64>, with: Option<f64>) -> Verdict {
     Verdict::new(
+        esm("figure 4", "without polygon offset numerical imprecision generates incorrect self-shadowing."),
         "Without an offset a shadow map shadows lit surfaces; an offset removes that",
+        Ran::new(SPHERES, ["hard, without a bias", "hard"]),
         [
-            at_least("acne of the shadow map without an offset", without, "a tenth of the lit pixels", 0.1),
-            less("with an offset", with, "a tenth of that", without.map(|w| 0.1 * w)),
+            at_least("acne of the shadow map without an offset", without, "a tenth of the lit pixels", 0.1)
+                .ours("a pattern that is seen all over lit surfaces"),
+            less("with an offset", with, "a tenth of that", without.map(|w| 0.1 * w))
+                .ours("what is solved is gone but for single pixels"),
         ],
     )
 }
 
-fn needs_none(esm: Option<f64>, without: Option<f64>, with: Option<f64>) -> Verdict {
+fn needs_none(found: Option<f64>, without: Option<f64>, with: Option<f64>) -> Verdict {
     let allowed = with.zip(without).map(|(with, without)| with.max(0.01 * without));
+    let than = "that of a shadow map with one, or a hundredth of what it has without";
     Verdict::new(
+        esm("§3.2", "polygon offsetting is not required for ESMs"),
         "ESM needs no offset",
-        [at_most(
-            "acne of ESM without an offset",
-            esm,
-            "that of a shadow map with one, or a hundredth of what it has without",
-            allowed,
-        )],
+        Ran::new(SPHERES, ["esm.kernel=1,sampling=bilinear, without a bias"]),
+        [at_most("acne of ESM without an offset", found, than, allowed)
+            .ours("as good as what an offset gives a shadow map, or next to nothing of what it takes away")],
     )
 }
 
@@ -181,8 +209,8 @@ pub(super) fn figure_9(bench: &Workbench<'_>) -> Result<Page> {
         pictures.push((name, &study.look(spec)?.picture));
     }
     let mut page = Page::default();
-    page.verdict(prevented("Custom filtering", wrong[1], wrong[0]));
-    page.verdict(prevented("Anisotropic filtering without it", wrong[2], wrong[0]));
+    page.verdict(prevented(1, "Custom filtering", wrong[1], wrong[0]));
+    page.verdict(prevented(2, "Anisotropic filtering without it", wrong[2], wrong[0]));
     pictures.push(("rays", &truth.picture));
     let window = gallery::window(&difference(pictures[0].1, &truth.picture), pictures[0].1, 8);
     let captions = ["As in the figure, with what rays say.", "Enlarged: where (a) looks most wrong."];
@@ -191,16 +219,22 @@ pub(super) fn figure_9(bench: &Workbench<'_>) -> Result<Page> {
     Ok(page)
 }
 
-/// Half: most of what is wrong is gone.
-fn prevented(how: &str, with: f64, without: f64) -> Verdict {
+fn prevented(which: usize, how: &str, with: f64, without: f64) -> Verdict {
+    let words = match which {
+        1 => "trilinear with custom PCF can prevent artifacts",
+        _ => "10× anisotropic filtering without custom filtering often handles such failure cases properly.",
+    };
     Verdict::new(
+        esm("figure 9", words),
         format!("{how} prevents most pixels that are lit though they ought to be in shadow"),
+        Ran::new("fence from three times its distance, 640×480, 2048²", [MINIFIED[which].0, MINIFIED[0].0]),
         [at_most(
             "share that is wrongly lit",
             with,
             "half of that of trilinear lookups alone",
             0.5 * without,
-        )],
+        )
+        .ours("most of them")],
     )
 }
 
@@ -225,7 +259,7 @@ mod tests {
         assert_eq!(needs_none(Some(0.001), Some(0.4), Some(0.001)).outcome(), Holds);
         assert_eq!(needs_none(Some(0.1), Some(0.4), Some(0.001)).outcome(), Differs);
         assert_eq!(needs_none(None, Some(0.4), Some(0.001)).outcome(), Open);
-        assert_eq!(prevented("It", 0.01, 0.1).outcome(), Holds);
-        assert_eq!(prevented("It", 0.09, 0.1).outcome(), Differs);
+        assert_eq!(prevented(1, "It", 0.01, 0.1).outcome(), Holds);
+        assert_eq!(prevented(1, "It", 0.09, 0.1).outcome(), Differs);
     }
 }

@@ -4,9 +4,15 @@ use super::Workbench;
 use crate::study::ShotKey;
 use antumbra::technique::Bias;
 use antumbra_lab::{progress::Progress, shot::Shot};
-use antumbra_scene::{Camera, procedural};
+use antumbra_scene::{Camera, Light, Scene, procedural};
 use anyhow::{Context, Result};
+use glam::Vec3;
 use std::{cell::RefCell, collections::BTreeMap, sync::Arc};
+
+/// The fence in a sun that is low.
+const LOW_SUN: &str = "fence in low sun";
+/// The backyard without its leaves and grass.
+const LEAFLESS: &str = "backyard without leaves";
 
 /// Width of the light-space ideal's kernel where an experiment names none, texels.
 const KERNEL: u32 = 5;
@@ -23,8 +29,7 @@ impl Scenes {
             return Ok(shot);
         }
         progress.step(&format!("build the scene {name}"));
-        let entry = procedural::by_name(name).with_context(|| format!("no scene is called {name}"))?;
-        let scene = entry.scene(procedural::Procedural::DEFAULT_SEED);
+        let scene = scene(name)?;
         let shot = Shot {
             name: name.into(),
             geometry: Arc::new(scene.flatten()),
@@ -40,6 +45,28 @@ impl Scenes {
         self.0.borrow_mut().insert(name, shot.clone());
         Ok(shot)
     }
+}
+
+/// A procedural scene, or a variant of one that an experiment needs.
+fn scene(name: &str) -> Result<Scene> {
+    let base = match name {
+        LOW_SUN => "fence",
+        LEAFLESS => "backyard",
+        own => own,
+    };
+    let entry = procedural::by_name(base).with_context(|| format!("no scene is called {name}"))?;
+    let mut scene = entry.scene(procedural::Procedural::DEFAULT_SEED);
+    match name {
+        // Lower, so that light that passes objects has passed fences before.
+        LOW_SUN => {
+            scene.lights = vec![Light::Directional { direction: Vec3::new(0.62, -0.25, -0.72).normalize() }]
+        }
+        LEAFLESS => {
+            scene.leave_out(&["leaves", "grass", "herb"])?;
+        }
+        _ => {}
+    }
+    Ok(scene)
 }
 
 impl Workbench<'_> {
