@@ -32,9 +32,8 @@ fn cast(
     draw_depth: impl FnMut(&mut CasterPass<'_>),
 ) -> Result<(), Box<dyn std::error::Error>> {
     let sun = Light::Directional { direction: Vec3::new(0.7, -1.0, -0.25) };
-    let (size, margin_texels) = (shadows.size(), shadows.margin_texels());
-    let views = sun
-        .views(&CameraFit { camera, scene, size, margin_texels, lean: shadows.leans() }, Cascades::new(4))?;
+    let (size, margin_texels, lean) = (shadows.size(), shadows.margin_texels(), shadows.leans());
+    let views = sun.views(&CameraFit { camera, scene, size, margin_texels, lean }, Cascades::new(4))?;
     shadows.prepare(queue, &views)?;
     shadows.encode(encoder, draw_depth)?; // your own depth pipeline, with pass.view().clip_from_world
     Ok(())
