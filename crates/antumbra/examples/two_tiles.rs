@@ -53,7 +53,7 @@ fn seen(position: Vec3, tile: Tile, margin_texels: f32) -> Result<Placed, antumb
     let lamp = Light::Spot { position, direction: -position, outer_angle: 0.7 };
     let casters = Bounds { min: Vec3::new(-6.0, -0.2, -6.0), max: Vec3::new(6.0, 1.4, 6.0) };
     let receivers = casters.corners().collect();
-    Ok(lamp.view(&Fit { casters, receivers, size: tile.size, margin_texels, lean: shadows.leans() })?.at(tile))
+    Ok(lamp.view(&Fit { casters, receivers, size: tile.size, margin_texels, lean: false })?.at(tile))
 }
 
 /// The picture, rows of RGBA.
