@@ -133,7 +133,7 @@ fn camera_fit() -> CameraFit {
     let scene = Bounds { min: Vec3::new(-50.0, 0.0, -50.0), max: Vec3::new(50.0, 8.0, 50.0) };
     let camera = rh::proj::directx::perspective(0.9, 1.5, 0.1, 60.0)
         * rh::view::look_at_mat4(Vec3::new(0.0, 1.7, 20.0), Vec3::new(0.0, 1.5, 0.0), Vec3::Y);
-    CameraFit { camera, scene, size: Size::square(256), margin_texels: 4.0 }
+    CameraFit { camera, scene, size: Size::square(256), margin_texels: 4.0, lean: false }
 }
 
 /// All shaders of a technique, the receiver's too.
