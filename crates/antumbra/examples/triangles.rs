@@ -70,14 +70,9 @@ pub fn run(
     }
     let scene = Bounds { min: Vec3::new(-6.0, -0.2, -6.0), max: Vec3::new(6.0, 2.1, 6.0) };
     let sun = Light::Directional { direction: Vec3::new(0.7, -1.0, -0.25) };
-    let (size, margin_texels) = (shadows.size(), shadows.margin_texels());
-    let view = sun.view(&Fit {
-        casters: scene,
-        receivers: scene.corners().collect(),
-        size,
-        margin_texels,
-        lean: shadows.leans(),
-    })?;
+    let (size, margin_texels, lean) = (shadows.size(), shadows.margin_texels(), shadows.leans());
+    let view =
+        sun.view(&Fit { casters: scene, receivers: scene.corners().collect(), size, margin_texels, lean })?;
 
     // 3. Each frame: what moved, then all meshes. The pass knows how to draw them.
     let moved = Mat4::from_translation(Vec3::new(-2.5, 0.5, 1.0)) * Mat4::from_rotation_y(0.6);

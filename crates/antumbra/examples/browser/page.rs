@@ -71,14 +71,9 @@ fn draw(
     );
     let scene = Bounds { min: Vec3::new(-6.0, -0.2, -6.0), max: Vec3::new(6.0, 2.0, 6.0) };
     let sun = Light::Directional { direction: Vec3::new(0.7, -1.0, -0.25) };
-    let (size, margin_texels) = (shadows.size(), shadows.margin_texels());
-    let view = sun.view(&Fit {
-        casters: scene,
-        receivers: scene.corners().collect(),
-        size,
-        margin_texels,
-        lean: shadows.leans(),
-    })?;
+    let (size, margin_texels, lean) = (shadows.size(), shadows.margin_texels(), shadows.leans());
+    let view =
+        sun.view(&Fit { casters: scene, receivers: scene.corners().collect(), size, margin_texels, lean })?;
     let camera = rh::proj::directx::perspective(0.8, WIDTH as f32 / HEIGHT as f32, 0.1, 100.0)
         * rh::view::look_at_mat4(Vec3::new(-5.0, 6.0, 9.0), Vec3::new(0.0, 0.5, 0.0), Vec3::Y);
 
