@@ -85,7 +85,7 @@ fn memory(_: &Gpu) {
     let gpu = antumbra_testing::gpu_without(wgpu::Features::empty()).unwrap();
     let limits = gpu.device.limits();
     let size = Size::square(limits.max_texture_dimension_2d);
-    let views = limits.max_texture_array_layers.min(400);
+    let views = limits.max_texture_array_layers.min(300);
     let evsm = technique::parse("evsm").unwrap();
     let error = ShadowMap::new(&gpu.device, evsm.as_ref(), Options::from(size).views(views)).unwrap_err();
     let Unsupported::Memory { bytes, .. } = error else { panic!("{error}") };

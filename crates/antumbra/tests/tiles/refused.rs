@@ -66,7 +66,7 @@ pub(crate) fn unfit_tiles(gpu: &Gpu) {
 
 /// WGSL that never asks where views lie.
 pub(crate) fn techniques(gpu: &Gpu) {
-    let plain = Broken::saying("hard", "//! needs reference tile", "//! needs reference")
+    let plain = Broken::saying("hard", "//! needs uphill tile", "//! needs uphill")
         .with(|d| d.wgsl = d.wgsl.replace("tile_size(view)", "vec2f(textureDimensions(casters))").into())
         .with(|d| d.wgsl = d.wgsl.replace("tile_uv(view, centre), tile_layer(view)", "centre, view").into());
     ShadowMap::new(&gpu.device, &plain, options(gpu, LAYER)).unwrap();
