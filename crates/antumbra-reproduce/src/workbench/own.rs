@@ -7,7 +7,7 @@ use antumbra::{
 };
 use anyhow::Result;
 
-/// The spec of [`FilteredDepth`] with a box of 5×5 texels and a bilinear lookup.
+/// The spec of filtered depth with a box of 5×5 texels and a bilinear lookup.
 pub const FILTERED_DEPTH: &str = "filtered_depth";
 
 /// What a spec means: a technique of the library, or one of these.
