@@ -26,7 +26,7 @@ fn pages() {
         serde_json::from_str(&folder.run(&json).good()).unwrap()
     };
     let first = run(&TARGETS[..1]);
-    assert_eq!(first["schema"], "antumbra-reproduction/1");
+    assert_eq!(first["schema"], "antumbra-reproduction/2");
     let cached = |folder: &Folder| fs::read_dir(folder.0.join("out/cache")).unwrap().count();
     let kept = cached(&folder);
     assert!(kept > 0);
