@@ -111,7 +111,7 @@ fn spsm_silhouette(map: texture_2d_array<u32>, point: vec2f, view: u32, entries:
         spsm_over(gentle, steep, places.z),
         spsm_over(gentle, steep, places.w),
     );
-    return max(heights, select(vec4f(spsm_nowhere), over, places >= vec4f(ends.x) & places <= vec4f(ends.y)));
+    return max(heights, select(vec4f(spsm_nowhere), over, (places >= vec4f(ends.x)) & (places <= vec4f(ends.y))));
 }
 
 /// Height at a place of the lines of both kinds of slopes.
